@@ -1,0 +1,40 @@
+"""Local minima of speed (Naert et al. 2017, section 4.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import find_peaks
+
+from signkin.kinematics.gaps import stretches
+
+
+def speed_minima(
+    speed: NDArray[np.float64], rate_hz: float, prominence: float = 0.0, spacing_s: float = 0.0
+) -> NDArray[np.float64]:
+    """Return the times of the local minima in seconds, in order.
+
+    speed: (F,), low-passed; NaN in gaps, next to which no minimum is found.
+    prominence: how far a minimum must lie below the lower of the two ridges beside it, in
+    the speed's unit. spacing_s: of two closer than this, the deeper one is kept.
+    A flat minimum counts once, in its middle. The first and last frame are no minima.
+    """
+    return minima_with_depth(speed, rate_hz, prominence, spacing_s)[0]
+
+
+def minima_with_depth(
+    speed: NDArray[np.float64], rate_hz: float, prominence: float = 0.0, spacing_s: float = 0.0
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return times (s), speeds and prominences of the local minima, in order of time."""
+    frames, depths = [], []
+    distance = max(1, int(np.ceil(spacing_s * rate_hz - 1e-9)))
+    for first, end in stretches(~np.isnan(speed)):
+        peaks, properties = find_peaks(
+            -speed[first:end], prominence=max(prominence, 0.0), distance=distance
+        )
+        frames.append(first + peaks)
+        depths.append(properties["prominences"])
+    if not frames:
+        return np.empty(0), np.empty(0), np.empty(0)
+    at = np.concatenate(frames)
+    return at / rate_hz, speed[at], np.concatenate(depths)

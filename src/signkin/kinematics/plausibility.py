@@ -1,0 +1,187 @@
+"""What a human body can do, against what a recording says it did.
+
+Rates and units are declared by people and are sometimes wrong. Limb lengths tell
+a wrong unit, wrist speeds a wrong rate (speeds grow with the declared rate,
+lengths do not). A recording that fails is reported, never changed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signkin.kinematics.derivatives import speed
+from signkin.kinematics.filters import lowpass
+from signkin.recording import Recording
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The plausible range of a measure, wide enough for any adult."""
+
+    low: float
+    high: float
+    unit: str
+
+
+# Lengths: 1st percentile of women to 99th of men, widened by a tenth for markers that sit
+# beside the joint (Winter, Biomechanics and Motor Control of Human Movement, fig. 4.1).
+LIMITS = {
+    "upper arm": Limit(0.20, 0.42, "m"),
+    "forearm": Limit(0.18, 0.36, "m"),
+    "shoulder width": Limit(0.24, 0.50, "m"),
+    "reach": Limit(0.15, 0.85, "m"),
+    # Fast signing moves the wrist at 2-3 m/s at its peaks; a whole recording whose fastest
+    # hundredth exceeds 4.5 m/s, or never comes to 0.1 m/s, is not signing at that rate.
+    "wrist speed": Limit(0.10, 4.5, "m/s"),
+    "limb length variation": Limit(0.0, 0.20, ""),
+}
+SHOULDER_WIDTH_M = 0.36
+TYPICAL_WRIST_SPEED = 1.5  # m/s, 99th percentile of ordinary signing
+SPEED_CUTOFF_HZ = 6.0
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One check: measured value (in `unit`), plausible range, verdict, and what to do."""
+
+    check: str
+    value: float
+    unit: str
+    low: float
+    high: float
+    verdict: str
+    note: str = ""
+
+
+def check_recording(recording: Recording) -> list[Finding]:
+    """Return the findings for lengths, reach, speeds and swapped sides of one recording.
+
+    A pixel recording is measured with the shoulders' width as a ruler (0.36 m); without
+    shoulders, lengths and speeds are not testable.
+    """
+    ruler = metres_per_unit(recording)
+    findings = []
+    for hand in ("right", "left"):
+        findings += _length_findings(recording, hand, ruler)
+        findings.append(_speed_finding(recording, hand, ruler))
+    findings.append(_swap_finding(recording))
+    return findings
+
+
+def metres_per_unit(recording: Recording) -> float | None:
+    """Return 1 for metres; for pixels, metres a pixel by the shoulders' width, None without."""
+    if recording.unit == "m":
+        return 1.0
+    width = _length(recording, "right_shoulder", "left_shoulder")
+    return None if width is None else SHOULDER_WIDTH_M / float(np.nanmedian(width))
+
+
+def _length(recording: Recording, a: str, b: str) -> NDArray[np.float64] | None:
+    if a not in recording.joints or b not in recording.joints:
+        return None
+    length = np.linalg.norm(recording.track(a) - recording.track(b), axis=1)
+    return None if np.isnan(length).all() else np.asarray(length)
+
+
+def _length_findings(recording: Recording, hand: str, ruler: float | None) -> list[Finding]:
+    limbs = {
+        "upper arm": (f"{hand}_shoulder", f"{hand}_elbow"),
+        "forearm": (f"{hand}_elbow", f"{hand}_wrist"),
+    }
+    if hand == "right":
+        limbs["shoulder width"] = ("right_shoulder", "left_shoulder")
+    out = []
+    for limb, ends in limbs.items():
+        name = limb if limb == "shoulder width" else f"{hand} {limb}"
+        length = _length(recording, *ends)
+        if recording.unit == "px" or length is None or ruler is None:
+            out.append(_untestable(name, LIMITS[limb], recording, ends))
+            continue
+        middle = float(np.nanmedian(length))
+        out.append(_finding(name, middle, LIMITS[limb], _unit_advice(middle, LIMITS[limb])))
+        if limb != "shoulder width":
+            spread = float(np.nanstd(length)) / middle if middle > 0 else float("nan")
+            note = "the limb changes its length: axes of different units, or poor tracking"
+            out.append(
+                _finding(f"{name}, variation", spread, LIMITS["limb length variation"], note)
+            )
+    reach = _length(recording, f"{hand}_shoulder", f"{hand}_wrist")
+    if reach is not None and ruler is not None:
+        far = float(np.nanpercentile(reach, 99)) * ruler
+        limit = LIMITS["reach"]
+        out.append(_finding(f"{hand} reach", far, limit, _unit_advice(far, limit)))
+    return out
+
+
+def _speed_finding(recording: Recording, hand: str, ruler: float | None) -> Finding:
+    limit = LIMITS["wrist speed"]
+    name = f"{hand} wrist speed, 99th percentile"
+    joint = f"{hand}_wrist"
+    if ruler is None or joint not in recording.joints:
+        return _untestable(name, limit, recording, (joint,))
+    cutoff = min(SPEED_CUTOFF_HZ, 0.45 * recording.rate_hz)
+    smooth = lowpass(recording.track(joint), recording.rate_hz, cutoff)
+    moving = speed(smooth, recording.rate_hz)
+    if np.isnan(moving).all():
+        return _untestable(name, limit, recording, (joint,))
+    fastest = float(np.nanpercentile(moving, 99)) * ruler
+    note = ""
+    if fastest > limit.high:
+        rate = recording.rate_hz * TYPICAL_WRIST_SPEED / fastest
+        note = (
+            f"at {recording.rate_hz:g} Hz no hand moves so fast; ordinary signing "
+            f"({TYPICAL_WRIST_SPEED:g} m/s) would mean about {rate:.0f} Hz, or another unit"
+        )
+    elif fastest < limit.low:
+        note = "this hand hardly moves: a hand that rests, or a wrong rate or unit"
+    return _finding(name, fastest, limit, note)
+
+
+def _swap_finding(recording: Recording) -> Finding:
+    """Count frames at which right and left wrist seem to change places (tracker's confusion)."""
+    right, left = recording.track("right_wrist"), recording.track("left_wrist")
+    same = _step(right[1:], right[:-1]) + _step(left[1:], left[:-1])
+    swapped = _step(right[1:], left[:-1]) + _step(left[1:], right[:-1])
+    apart = _step(right[1:], left[1:])
+    with np.errstate(invalid="ignore"):
+        jumps = (swapped < 0.3 * same) & (same > apart)
+    count = int(np.count_nonzero(jumps))
+    return _finding(
+        "frames at which the hands swap", count, Limit(0, 0, ""), "the sides may be mixed up"
+    )
+
+
+def _step(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.linalg.norm(a - b, axis=1))
+
+
+def _finding(check: str, value: float, limit: Limit, note: str) -> Finding:
+    fine = limit.low <= value <= limit.high
+    verdict = "plausible" if fine else "implausible"
+    return Finding(check, value, limit.unit, limit.low, limit.high, verdict, "" if fine else note)
+
+
+def _untestable(
+    check: str, limit: Limit, recording: Recording, joints: tuple[str, ...]
+) -> Finding:
+    missing = [joint for joint in joints if joint not in recording.joints]
+    why = (
+        f"no {', '.join(missing)}"
+        if missing
+        else "pixels without a length of the body to measure by"
+        if recording.unit == "px"
+        else "no frame with the joints"
+    )
+    nan = float("nan")
+    return Finding(check, nan, limit.unit, limit.low, limit.high, "not testable", why)
+
+
+def _unit_advice(value: float, limit: Limit) -> str:
+    for factor, unit in ((0.001, "mm"), (0.01, "cm"), (100.0, "m, declared as cm"),
+                         (1000.0, "m, declared as mm"), (10.0, "cm, declared as mm")):  # fmt: skip
+        if limit.low <= value * factor <= limit.high:
+            return f"it would be plausible if the file were in {unit}"
+    return "the unit, the joint map or the tracking is wrong"
