@@ -1,0 +1,320 @@
+"""A corpus as a folder: corpus.yaml, recordings.csv, signs.csv, checked before anything runs.
+
+JSON Schemas (workflow/schemas) check shapes and words; this module adds what
+schemas cannot say: doubled rows, files that are not there, joint names outside
+the vocabulary, sign types that contradict themselves.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+
+from signkin import joints as joint_names
+from signkin.errors import SignkinError, listed
+
+SCHEMAS = Path(__file__).resolve().parents[2] / "workflow" / "schemas"
+GUIDE = "See docs/adding-a-corpus.md."
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A row of recordings.csv: one recording and where its files lie in the data folder."""
+
+    recording: str
+    signer: str
+    motion: str
+    annotation: str
+    part: str
+    line: int
+
+
+@dataclass(frozen=True)
+class SignType:
+    """A row of signs.csv (Naert et al. 2017, section 5.1).
+
+    hands: 0 one hand, 1 two hands, 2 one hand while the other keeps the context.
+    symmetric: 1 where the two hands move symmetrically (two-handed signs only).
+    """
+
+    gloss: str
+    hands: int
+    symmetric: int
+
+    @property
+    def digits(self) -> str:
+        """The two digits of the type, `10`."""
+        return f"{self.hands}{self.symmetric}"
+
+
+@dataclass(frozen=True)
+class Corpus:
+    """A checked corpus. `settings` is corpus.yaml as it stands."""
+
+    name: str
+    folder: Path
+    settings: Mapping[str, Any]
+    entries: tuple[Entry, ...]
+    signs: tuple[SignType, ...]
+
+    @property
+    def simulator(self) -> str | None:
+        """Name of the simulator that makes the corpus, None for real recordings."""
+        return self.settings.get("simulator")
+
+    @property
+    def tagged(self) -> bool:
+        """Whether the corpus has sign tags, which Naert et al.'s analyses need."""
+        return "annotation" in self.settings
+
+    @property
+    def unit(self) -> str:
+        """Unit of length after reading: m or px."""
+        return "px" if self.settings["motion"].get("unit") == "px" else "m"
+
+    @property
+    def lexicon(self) -> dict[str, str]:
+        """Two digits of each gloss of signs.csv."""
+        return {sign.gloss: sign.digits for sign in self.signs}
+
+    def motion_spec(self, entry: Entry) -> dict[str, Any]:
+        """Return the arguments of `read_recording` for one recording."""
+        motion = dict(self.settings["motion"])
+        motion.pop("orientations", None)
+        options = motion.pop("options", {})
+        return {**motion, **options, "name": entry.recording, "part": entry.part or None}
+
+    def annotation_spec(self, entry: Entry) -> dict[str, Any]:
+        """Return the arguments of `read_annotation` for one recording."""
+        annotation = self.settings["annotation"]
+        return {
+            "format": annotation.get("format"),
+            "tiers": tuple(dict.fromkeys(self.tiers.values())),
+            "name": entry.recording,
+            "part": entry.part or None,
+            **annotation.get("options", {}),
+        }
+
+    @property
+    def tiers(self) -> dict[str, str]:
+        """Tier of each role: sign, and utterance and translation where the corpus names them."""
+        annotation = self.settings.get("annotation", {})
+        roles = ("sign", "utterance", "translation")
+        return {r: annotation[f"{r}_tier"] for r in roles if annotation.get(f"{r}_tier")}
+
+    def files(self) -> list[str]:
+        """Return the data files of all recordings, each once, in order."""
+        names = [n for e in self.entries for n in (e.motion, e.annotation) if n]
+        return list(dict.fromkeys(names))
+
+
+def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corpus]:
+    """Load and check the corpora of a folder, all or those named, by name."""
+    if not folder.is_dir():
+        raise SignkinError("there is no such folder", file=folder, todo="Set corpora_dir.")
+    there = sorted(path.name for path in folder.iterdir() if (path / "corpus.yaml").is_file())
+    unknown = sorted(set(names or ()) - set(there))
+    if unknown:
+        raise SignkinError(
+            f"no corpus {listed(unknown)}", file=folder, expected=listed(there), todo=GUIDE
+        )
+    return {name: load_corpus(folder / name) for name in (there if names is None else names)}
+
+
+def load_corpus(folder: Path) -> Corpus:
+    """Load and check one corpus folder."""
+    settings = _read_yaml(folder / "corpus.yaml")
+    check_schema(settings, "corpus", folder / "corpus.yaml")
+    _check_joints(settings["motion"], folder / "corpus.yaml")
+    entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
+    signs_file = folder / "signs.csv"
+    signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
+    return Corpus(folder.name, folder, settings, entries, signs)
+
+
+def _read_yaml(path: Path) -> dict[str, Any]:
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = None if mark is None else f"line {mark.line + 1}"
+        problem = getattr(error, "problem", None) or "not YAML"
+        raise SignkinError(str(problem), file=path, place=place, expected="YAML") from error
+    if not isinstance(content, dict):
+        raise SignkinError("no keys", file=path, expected="a mapping of keys to values")
+    return content
+
+
+def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
+    """Check a value against workflow/schemas/<schema>.schema.yaml; the error names the key."""
+    errors = sorted(_validator(schema).iter_errors(content), key=lambda e: list(map(str, e.path)))
+    if not errors:
+        return
+    error = jsonschema.exceptions.best_match(errors)
+    assert error is not None
+    key = ".".join(str(part) for part in error.absolute_path)
+    places = [part for part in (place, f"key {key}" if key else "") if part]
+    rule = error.schema if isinstance(error.schema, dict) else {}
+    raise SignkinError(
+        error.message,
+        file=file,
+        place=", ".join(places) or None,
+        expected=rule.get("description"),
+        todo=GUIDE if schema != "config" else "config.yaml tells each key's unit and meaning.",
+    )
+
+
+@cache
+def _validator(schema: str) -> jsonschema.Draft202012Validator:
+    path = SCHEMAS / f"{schema}.schema.yaml"
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(content)
+    return jsonschema.Draft202012Validator(content)
+
+
+def _check_joints(motion: Mapping[str, Any], file: Path) -> None:
+    for joint in motion["joints"]:
+        if not joint_names.is_known(joint):
+            raise SignkinError(
+                f"the joint {joint!r} is not in the vocabulary",
+                file=file,
+                place="key motion.joints",
+                expected=joint_names.vocabulary(),
+            )
+    for hand in joint_names.HANDS:
+        if f"{hand}_wrist" not in motion["joints"]:
+            raise SignkinError(
+                f"no joint {hand}_wrist",
+                file=file,
+                place="key motion.joints",
+                expected="both wrists, which every analysis needs",
+            )
+
+
+def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, str]]]:
+    """Yield (line, row) of a checked CSV file; a doubled key is an error."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    seen: dict[str, int] = {}
+    reader = csv.DictReader(text.splitlines(), strict=True)
+    for row in reader:
+        line = reader.line_num
+        if None in row or None in row.values():
+            raise SignkinError(
+                "the row has more or fewer cells than the header",
+                file=path,
+                place=f"line {line}",
+                expected=listed(reader.fieldnames or ()),
+            )
+        check_schema(row, schema, path, f"line {line}")
+        if row[key] in seen:
+            raise SignkinError(
+                f"{key} {row[key]!r} stands in line {seen[row[key]]} already",
+                file=path,
+                place=f"line {line}",
+                expected="each once",
+                todo="Take one of the two rows out.",
+            )
+        seen[row[key]] = line
+        yield line, row
+
+
+def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
+    count = 0
+    for line, row in _rows(path, "recordings", "recording"):
+        count += 1
+        if tagged and not row.get("annotation"):
+            raise SignkinError(
+                "no annotation file",
+                file=path,
+                place=f"line {line}",
+                expected="one for each recording, since corpus.yaml has an annotation section",
+            )
+        yield Entry(
+            recording=row["recording"],
+            signer=row["signer"],
+            motion=row["motion"],
+            annotation=row.get("annotation", ""),
+            part=row.get("part", ""),
+            line=line,
+        )
+    if not count:
+        raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
+
+
+def _read_signs(path: Path) -> Iterator[SignType]:
+    for line, row in _rows(path, "signs", "gloss"):
+        hands, symmetric = int(row["hands"]), int(row["symmetric"])
+        if symmetric and hands != 1:
+            raise SignkinError(
+                f"{row['gloss']} is symmetric with hands = {hands}",
+                file=path,
+                place=f"line {line}",
+                expected="symmetric = 1 for two-handed signs (hands = 1) only",
+            )
+        yield SignType(row["gloss"], hands, symmetric)
+
+
+# --- where the data lie ----------------------------------------------------------------------
+
+
+def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> Path | None:
+    """Return the folder that holds a corpus's recordings, or None where they are not there.
+
+    Simulated corpora lie in the results; real ones in `data_dir/<data_folder>`, or in
+    the corpus's own folder `data`.
+    """
+    if corpus.simulator is not None:
+        return results / corpus.name / "simulated"
+    name = corpus.settings.get("data_folder", corpus.name)
+    candidates = [corpus.folder / "data"]
+    if data_dir:
+        candidates.insert(0, Path(data_dir) / name)
+    return next((folder for folder in candidates if folder.is_dir()), None)
+
+
+def check_files(corpus: Corpus, folder: Path) -> None:
+    """Refuse a corpus whose data folder lacks a file that recordings.csv names."""
+    for entry in corpus.entries:
+        for name in (entry.motion, entry.annotation):
+            if name and not (folder / name).is_file():
+                raise SignkinError(
+                    f"there is no file {folder / name}",
+                    file=corpus.folder / "recordings.csv",
+                    place=f"line {entry.line}",
+                    expected="the recording's file in the data folder",
+                )
+
+
+def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
+    """Refuse a file that is not the one the corpus was described with."""
+    expected = corpus.settings.get("checksums", {}).get(name)
+    if expected is None:
+        return
+    found = hashlib.sha256((folder / name).read_bytes()).hexdigest()
+    if found != expected:
+        raise SignkinError(
+            f"the SHA-256 of {name} is {found}",
+            file=corpus.folder / "corpus.yaml",
+            place="key checksums",
+            expected=expected,
+            todo="Get the file again, or correct the checksum if the change is meant.",
+        )
+
+
+def data_dir_of(config: Mapping[str, Any]) -> str | None:
+    """Return the folder of real recordings: the environment's SIGNKIN_DATA, else config."""
+    return os.environ.get("SIGNKIN_DATA") or config.get("data_dir") or None

@@ -1,0 +1,72 @@
+"""Digests of the code that a rule depends on.
+
+Snakemake reruns a job when its script changes, but does not see the library
+behind it. `code_digest` follows a script's imports through signkin and hashes
+what it finds, templates included, for use as a parameter of the rule.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def code_digest(script: str | Path) -> str:
+    """Return a digest of a script and of every signkin module that it imports, however deep."""
+    script = Path(script)
+    modules: set[Path] = set()
+    open_files = [script]
+    while open_files:
+        for module in _imports(open_files.pop()):
+            if module not in modules:
+                modules.add(module)
+                open_files.append(module)
+    digest = hashlib.sha256(script.read_bytes())
+    for path in sorted(_with_data_files(modules)):
+        digest.update(path.relative_to(PACKAGE).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _imports(path: Path) -> tuple[Path, ...]:
+    tree = ast.parse(path.read_text(encoding="utf-8"), filename=str(path))
+    return tuple(module for name in _names(tree.body) for module in _files_of(name))
+
+
+def _names(body: list[ast.stmt]) -> Iterator[str]:
+    """Yield dotted names that statements import, at any depth, but not for type checking only."""
+    for statement in body:
+        if isinstance(statement, ast.If) and ast.unparse(statement.test).endswith("TYPE_CHECKING"):
+            continue
+        for node in ast.walk(statement):
+            if isinstance(node, ast.Import):
+                yield from (alias.name for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                yield node.module
+                yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def _files_of(name: str) -> Iterator[Path]:
+    """Yield the files that importing a dotted name runs: each package on the way, the module."""
+    parts = name.split(".")
+    if parts[0] != PACKAGE.name:
+        return
+    for depth in range(1, len(parts) + 1):
+        base = PACKAGE.joinpath(*parts[1:depth])
+        if (base / "__init__.py").is_file():
+            yield base / "__init__.py"
+        elif base.with_suffix(".py").is_file():
+            yield base.with_suffix(".py")
+
+
+def _with_data_files(modules: set[Path]) -> set[Path]:
+    """Add the files that are not Python below each subpackage (templates)."""
+    packages = {m.parent for m in modules if m.name == "__init__.py" and m.parent != PACKAGE}
+    data = (p for package in packages for p in package.rglob("*") if p.is_file())
+    return modules | {p for p in data if p.suffix not in (".py", ".pyc")}
