@@ -1,0 +1,1 @@
+"""Statistics of arrays and data frames; nothing here knows a recording."""
