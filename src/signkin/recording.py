@@ -7,7 +7,7 @@ are scalar-last. NaN is a gap; nothing here fills it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,7 @@ class Recording:
     orientation_source: str = "none"
     unit: str = "m"
     parents: tuple[int, ...] | None = None
-    _index: dict[str, int] = field(init=False, repr=False)
+    _index: dict[str, int] = field(init=False, repr=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check every field; errors name the recording and the joint or frame."""
@@ -138,3 +138,7 @@ class Recording:
     def frame_at(self, time_s: float) -> int:
         """Return the frame nearest to a time, kept inside the recording."""
         return int(np.clip(np.rint(time_s * self.rate_hz), 0, self.frames - 1))
+
+    def without_orientations(self) -> Recording:
+        """Return the recording with its positions only."""
+        return replace(self, orientations=None, orientation_source="none")

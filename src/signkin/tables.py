@@ -7,6 +7,7 @@ name stands for the corpus's unit of length, m or px.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -197,6 +198,7 @@ TABLES: dict[str, Table] = {
                 _text("gloss", "label of the sign"),
                 Column("start_s", "s", "start of the sign"),
                 Column("end_s", "s", "end of the sign"),
+                _text("utterance", "utterance the sign belongs to, empty for none"),
                 _text("lexicon", "two digits from signs.csv, empty where the gloss is missing"),
                 _text("kinematic", "two digits from motion"),
                 _text("type", "the two digits in use"),
@@ -367,6 +369,19 @@ TABLES: dict[str, Table] = {
             ),
         ),
         Table(
+            "overview",
+            "results/naert2017/fig03.csv",
+            "a rule of the workflow (the counterpart of Naert et al. 2017, Fig. 3)",
+            (
+                _text("rule", "rule"),
+                _text("stage", "file in workflow/rules it stands in"),
+                _text("note", "what it does"),
+                Column("column", "", "longest path to the rule"),
+                Column("row", "", "place among the rules of its column"),
+                _text("after", "rules whose output it takes, those behind others left out"),
+            ),
+        ),
+        Table(
             "truth",
             "the corpus's own folder (truth_file in corpus.yaml)",
             "a true boundary of one hand (simulated corpora)",
@@ -387,6 +402,15 @@ TABLES: dict[str, Table] = {
         ),
     )
 }
+
+
+_NOT_YET = ("geodesic_norm", "euclidean_norm", "mean_distance", "note")
+TABLES["raw_transitions"] = Table(
+    "raw_transitions",
+    "results/naert2017/<corpus>/shards/<shard>/transitions.csv",
+    "a transition before distances are normalised, which wants the whole corpus",
+    tuple(c for c in TABLES["transitions"].columns if c.name not in _NOT_YET),
+)
 
 
 def write_table(frame: pd.DataFrame, path: str | Path, name: str, unit: str = "m") -> None:
@@ -416,6 +440,13 @@ def read_table(path: str | Path, name: str) -> pd.DataFrame:
         na_values={column: [""] for column in header if column not in text},
     )
     return frame
+
+
+def concatenated(paths: Iterable[str | Path], name: str, unit: str = "m") -> pd.DataFrame:
+    """Read tables of one kind and put them below one another, in the order given."""
+    parts = [read_table(path, name) for path in paths]
+    kept = [part for part in parts if len(part)]
+    return pd.concat(kept, ignore_index=True) if kept else empty(name, unit)
 
 
 def empty(name: str, unit: str = "m") -> pd.DataFrame:

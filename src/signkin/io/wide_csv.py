@@ -43,8 +43,10 @@ def read_wide_csv(
     table = read_text_table(path)
     rows = rows_of_part(table, recording_column, part)
     if frame_column is not None:
-        rows = rows.sort_values(known_column(rows, frame_column), kind="stable")
-        _check_frames(rows[frame_column].to_numpy(), rows.index.to_numpy())
+        frames = column_numbers(rows, frame_column)
+        order = np.argsort(frames, kind="stable")
+        rows = rows.iloc[order]
+        _check_frames(frames[order], rows.index.to_numpy())
     positions = np.zeros((len(rows), len(joints), 3))
     for j, (joint, columns) in enumerate(joints.items()):
         if isinstance(columns, str) or len(columns) not in (2, 3):
@@ -118,12 +120,11 @@ def column_numbers(rows: pd.DataFrame, column: str) -> np.ndarray:
 
 
 def _check_frames(frames: np.ndarray, index: np.ndarray) -> None:
-    numbers = pd.to_numeric(pd.Series(frames), errors="coerce").to_numpy()
-    steps = np.diff(numbers)
-    if not np.isfinite(numbers).all() or (steps != 1).any():
-        bad = int(np.flatnonzero(~(steps == 1))[0]) + 1 if len(steps) else 0
+    wrong = ~(np.diff(frames) == 1)
+    if wrong.any():
+        bad = int(np.flatnonzero(wrong)[0]) + 1
         raise SignkinError(
-            f"frame {frames[bad]} follows frame {frames[bad - 1]}",
+            f"frame {frames[bad]:g} follows frame {frames[bad - 1]:g}",
             place=f"line {index[bad] + 2}",
             expected="frame numbers that rise by 1; write an empty cell for a gap",
         )

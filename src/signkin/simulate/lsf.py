@@ -30,6 +30,7 @@ from signkin.simulate.chains import chains
 from signkin.simulate.printed import integers_with, sums_from_print
 from signkin.simulate.surface import design_distances
 
+TERMS = ("constant", "geodesic", "euclidean")  # order of theta
 RATE_HZ = 100.0
 FRAME_S = 0.01
 DURATION_RANGE = (10, 50)  # frames; claims N03 and N04 of the paper, the outlier aside

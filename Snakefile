@@ -1,0 +1,24 @@
+# The entry of the workflow: configuration, the rules of each stage, and the targets.
+
+
+configfile: "config.yaml"
+
+
+pathvars:
+    results="results",
+    logs="logs",
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/ingest.smk"
+include: "workflow/rules/kinematics.smk"
+include: "workflow/rules/coarticulation.smk"
+include: "workflow/rules/report.smk"
+
+
+rule all:
+    """Everything this run can make."""
+    default_target: True
+    input:
+        "<results>/report/index.html",
+        rules.naert2017.input,

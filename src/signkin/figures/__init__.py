@@ -1,0 +1,1 @@
+"""Figures: tables and arrays in, drawn on the Axes given; no files but in `style.save`."""

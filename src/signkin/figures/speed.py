@@ -1,0 +1,93 @@
+"""Speed of both wrists with tags and minima (Naert et al. 2017, Fig. 4, 5 and 6)."""
+
+from __future__ import annotations
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from signkin.figures.style import HAND_COLOURS, MANUAL, SPEED_UNITS
+
+
+def plot_speed(points: pd.DataFrame, unit: str, rate_hz: float, *, ax: Axes, marks: str) -> Axes:
+    """Draw the excerpt of a recording on the Axes given.
+
+    points: rows of the table `excerpt`. unit: m or px. marks: `minima` (Fig. 4, 5: the local
+    minima of each hand, dotted) or `refined` (Fig. 6: the refined tags of each hand).
+    Seconds below, frames above, as the paper counts them.
+    """
+    column = f"speed_{unit}_per_s"
+    for hand, style in (("right", {"lw": 1.3}), ("left", {"lw": 1.0, "marker": ".", "ms": 2.5})):
+        curve = points[(points["kind"] == "speed") & (points["hand"] == hand)]
+        ax.plot(curve["time_s"], curve[column], color=HAND_COLOURS[hand], zorder=3, **style)
+    tags = points[points["kind"] == "tag"]
+    for tag in tags.itertuples():
+        ax.axvline(tag.time_s, color=MANUAL, lw=1.3, ls="-" if tag.edge == "start" else "--")
+    kind = "minimum" if marks == "minima" else "refined"
+    for row in points[points["kind"] == kind].itertuples():
+        # The hands' marks end at different heights, so that one on the other stays visible.
+        span = (0.0, 0.86) if row.hand == "right" else (0.0, 0.80)
+        solid = kind == "refined" and row.edge == "start"
+        style = "-" if solid else "--" if kind == "refined" else ":"
+        ax.axvline(row.time_s, *span, color=HAND_COLOURS[row.hand], lw=1.0, ls=style, alpha=0.9)
+    if not points.empty:
+        ax.set_xlim(points["time_s"].min(), points["time_s"].max())
+    top = points[column].max()
+    ax.set_ylim(0, top * 1.28)
+    _name_signs(tags, ax)
+    ax.set(xlabel="time in the recording (s)", ylabel=f"wrist speed ({SPEED_UNITS[unit]})")
+    frames = ax.secondary_xaxis(
+        "top", functions=(lambda t: t * rate_hz, lambda frame: frame / rate_hz)
+    )
+    frames.set_xlabel(f"frame ({rate_hz:g} Hz)")
+    ax.legend(
+        handles=_handles(marks), loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=4,
+        handlelength=2.4,
+    )  # fmt: skip
+    return ax
+
+
+def _name_signs(tags: pd.DataFrame, ax: Axes) -> None:
+    """Write each gloss between its tags, as long as both are in view; long ones are shortened."""
+    starts = tags[tags["edge"] == "start"]
+    ends = tags[tags["edge"] == "end"]
+    low, high = ax.get_xlim()
+    for start in starts.itertuples():
+        later = ends[(ends["gloss"] == start.gloss) & (ends["time_s"] > start.time_s)]
+        if later.empty:
+            continue
+        end = float(later["time_s"].min())
+        room = (end - start.time_s) / (high - low)
+        letters = max(3, int(room * 95))
+        gloss = str(start.gloss)
+        text = gloss if len(gloss) <= letters else gloss[: letters - 1] + "…"
+        ax.text(
+            (start.time_s + end) / 2, 0.965, text, transform=ax.get_xaxis_transform(),
+            ha="center", va="center", fontsize=7, color=MANUAL, clip_on=True,
+        )  # fmt: skip
+
+
+def _handles(marks: str) -> list[Line2D]:
+    def line(label: str, colour: str, ls: str = "-", **extra: object) -> Line2D:
+        return Line2D([], [], color=colour, ls=ls, label=label, **extra)  # type: ignore[arg-type]
+
+    right, left = HAND_COLOURS["right"], HAND_COLOURS["left"]
+    handles = [
+        line("right wrist", right),
+        line("left wrist", left, marker=".", ms=4),
+        line("sign starts (manual)", MANUAL),
+        line("sign ends (manual)", MANUAL, "--"),
+    ]
+    if marks == "minima":
+        return [
+            *handles,
+            line("minimum, right hand", right, ":"),
+            line("minimum, left hand", left, ":"),
+        ]
+    return [
+        *handles,
+        line("start, refined: right", right),
+        line("end", right, "--"),
+        line("start, refined: left", left),
+        line("end", left, "--"),
+    ]

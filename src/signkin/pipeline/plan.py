@@ -1,0 +1,138 @@
+"""What a run consists of: which corpora are there, where their files are, how they are sharded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from signkin.corpus import (
+    Corpus,
+    Entry,
+    check_files,
+    check_schema,
+    data_dir_of,
+    data_folder,
+    load_corpora,
+)
+from signkin.provenance import code_digest
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The corpora of a run.
+
+    corpora: those whose data are there, by name. folders: their data folders.
+    missing: corpus -> why it is left out of this run.
+    """
+
+    corpora: Mapping[str, Corpus]
+    folders: Mapping[str, Path]
+    missing: Mapping[str, str]
+    recordings_per_job: int
+    root: Path
+    papers: Path
+
+    @property
+    def tagged(self) -> list[str]:
+        """Corpora with sign tags, which Naert et al.'s analyses can run on."""
+        return [name for name, corpus in self.corpora.items() if corpus.tagged]
+
+    @property
+    def untagged(self) -> list[str]:
+        """Corpora without tags."""
+        return [name for name, corpus in self.corpora.items() if not corpus.tagged]
+
+    @property
+    def with_elan(self) -> list[str]:
+        """Corpora whose tags are ELAN files, which refinement writes back."""
+        return [
+            name
+            for name in self.tagged
+            if self.corpora[name].settings["annotation"]["format"] == "eaf"
+        ]
+
+    def simulated_by(self, simulator: str) -> list[str]:
+        """Corpora that a simulator makes."""
+        return [name for name, corpus in self.corpora.items() if corpus.simulator == simulator]
+
+    def shards(self, corpus: str) -> list[str]:
+        """Return the names of a corpus's shards, `0001` and so on."""
+        n = len(self.corpora[corpus].entries)
+        return [f"{i + 1:04d}" for i in range((n - 1) // self.recordings_per_job + 1)]
+
+    def entries(self, corpus: str, shard: str) -> list[Entry]:
+        """Return the recordings of a shard."""
+        first = (int(shard) - 1) * self.recordings_per_job
+        return list(self.corpora[corpus].entries[first : first + self.recordings_per_job])
+
+    def names(self, corpus: str, shard: str) -> list[str]:
+        """Return the names of the recordings of a shard."""
+        return [entry.recording for entry in self.entries(corpus, shard)]
+
+    def files(self, corpus: str, shard: str) -> list[str]:
+        """Return the data files that a shard's recordings lie in."""
+        folder = self.folders[corpus]
+        names = [n for e in self.entries(corpus, shard) for n in (e.motion, e.annotation) if n]
+        return [str(folder / name) for name in dict.fromkeys(names)]
+
+    def annotation_files(self, corpus: str) -> list[str]:
+        """Return the annotation files of a corpus."""
+        names = dict.fromkeys(e.annotation for e in self.corpora[corpus].entries if e.annotation)
+        return [str(self.folders[corpus] / name) for name in names]
+
+    def description(self, corpus: str) -> list[str]:
+        """Return the files of the corpus's own folder."""
+        folder = self.corpora[corpus].folder
+        names = ("corpus.yaml", "recordings.csv", "signs.csv")
+        return [str(folder / name) for name in names if (folder / name).is_file()]
+
+    def digest(self, script: str) -> str:
+        """Return the digest of a workflow script and the library behind it."""
+        return code_digest(self.root / "workflow" / "scripts" / script)
+
+
+def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "results") -> Plan:
+    """Check the configuration and every corpus, and find out what can be run.
+
+    root: the folder of the Snakefile, where corpora and papers lie unless the working
+    directory has folders of its own of these names.
+    """
+    check_schema(dict(config), "config", "config.yaml")
+    root = Path(root)
+    corpora = load_corpora(
+        _own_or_shipped(config["corpora_dir"], root),
+        None if config["corpora"] == "all" else list(config["corpora"]),
+    )
+    data_dir = data_dir_of(config)
+    there: dict[str, Corpus] = {}
+    folders: dict[str, Path] = {}
+    missing: dict[str, str] = {}
+    for name, corpus in corpora.items():
+        folder = data_folder(corpus, data_dir, Path(results))
+        if folder is None:
+            missing[name] = _why_missing(corpus, data_dir)
+            continue
+        if corpus.simulator is None:
+            check_files(corpus, folder)
+        there[name], folders[name] = corpus, folder
+    return Plan(
+        corpora=there,
+        folders=folders,
+        missing=missing,
+        recordings_per_job=config["recordings_per_job"],
+        root=root,
+        papers=_own_or_shipped(config["papers_dir"], root),
+    )
+
+
+def _own_or_shipped(folder: str, root: Path) -> Path:
+    return Path(folder) if Path(folder).is_dir() else root / folder
+
+
+def _why_missing(corpus: Corpus, data_dir: str | None) -> str:
+    name = corpus.settings.get("data_folder", corpus.name)
+    if data_dir is None:
+        return "no folder of real recordings is set (data_dir, SIGNKIN_DATA or make DATA=...)"
+    return f"there is no folder {name} in {data_dir}"

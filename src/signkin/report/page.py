@@ -1,0 +1,111 @@
+"""The report: one self-contained HTML page from tables, figures and captions.
+
+Tables and figures come in as data and files; nothing is computed here but counts
+of rows. The page asks the network for nothing: styles and figures are in it.
+"""
+
+from __future__ import annotations
+
+import base64
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+
+@dataclass(frozen=True)
+class TableView:
+    """A table as it is shown: what is above it, the columns shown, the file with all of it.
+
+    columns: column -> (heading, format); the format is empty for text, else as in `format()`.
+    most: rows shown before the rest is folded away; the file has all.
+    """
+
+    label: str
+    title: str
+    caption: str
+    frame: pd.DataFrame
+    columns: Mapping[str, tuple[str, str]]
+    file: Path | None = None
+    differs: str = ""
+    most: int = 24
+    emphasis: str = ""  # a column whose value `yes` or `no` colours the row
+
+
+@dataclass(frozen=True)
+class FigureView:
+    """A figure as it is shown, with its caption, its files and how it differs from the paper's."""
+
+    label: str
+    title: str
+    caption: str
+    svg: Path
+    files: Sequence[Path] = ()
+    differs: str = ""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page: text, then exhibits in order."""
+
+    anchor: str
+    title: str
+    text: Sequence[str] = ()
+    badge: str = ""  # `simulated`, `real` or nothing
+    exhibits: Sequence[TableView | FigureView] = ()
+    notices: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Page:
+    """The whole page."""
+
+    title: str
+    lead: Sequence[str]
+    sections: Sequence[Section]
+    version: str
+    missing: Mapping[str, str] = field(default_factory=dict)
+
+
+def render(page: Page, home: Path) -> str:
+    """Return the page as HTML; home: the folder it will lie in, for links to files."""
+    environment = Environment(
+        loader=PackageLoader("signkin.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["data_uri"] = data_uri
+    environment.filters["link"] = lambda path: Path(os.path.relpath(path, home)).as_posix()
+    environment.filters["suffix"] = lambda path: Path(path).suffix.lstrip(".").upper()
+    environment.tests["figure"] = lambda view: isinstance(view, FigureView)
+    environment.globals["cell"] = cell
+    environment.globals["rows_of"] = rows_of
+    return environment.get_template("page.html.j2").render(page=page)
+
+
+def data_uri(svg: Path) -> Markup:
+    """Return an SVG file as a data address, so that identifiers of figures cannot clash."""
+    content = base64.b64encode(Path(svg).read_bytes()).decode("ascii")
+    return Markup(f"data:image/svg+xml;base64,{content}")  # noqa: S704 - base64 of our own file
+
+
+def rows_of(view: TableView) -> list[dict[str, Any]]:
+    """Return the rows of a table as dictionaries."""
+    return view.frame.to_dict("records")  # type: ignore[return-value]
+
+
+def cell(value: object, form: str) -> str:
+    """Return a value as it is printed; what is missing is a dash."""
+    if value is None or (isinstance(value, float) and pd.isna(value)) or value == "":
+        return "–"
+    if not form or isinstance(value, str):
+        return str(value)
+    # A column of counts with gaps comes as floats.
+    return format(int(value) if form == "d" else value, form)  # type: ignore[call-overload]

@@ -1,0 +1,14 @@
+# What a run consists of, found out once: corpora, their files, what is missing.
+from signkin.errors import SignkinError
+from signkin.pipeline.plan import make_plan
+from snakemake.exceptions import WorkflowError
+
+try:
+    PLAN = make_plan(config, workflow.basedir)
+except SignkinError as error:
+    raise WorkflowError(f"signkin: {error}") from None
+
+
+wildcard_constraints:
+    corpus="[A-Za-z0-9._-]+",
+    shard=r"\d{4}",

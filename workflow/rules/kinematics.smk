@@ -1,0 +1,71 @@
+# Canonical recordings to wrist paths, speeds and minima.
+
+
+rule kinematics:
+    """Low-pass, wrist speed and its minima; gaps and plausibility (4.1)."""
+    input:
+        recordings=rules.ingest.output.recordings,
+    output:
+        frames="<results>/{corpus}/kinematics/{shard}.parquet",
+        minima="<results>/{corpus}/shards/{shard}/minima.csv",
+        gaps="<results>/{corpus}/shards/{shard}/gaps.csv",
+        plausibility="<results>/{corpus}/shards/{shard}/plausibility.csv",
+        excluded="<results>/{corpus}/shards/{shard}/excluded_wrists.csv",
+    log:
+        "<logs>/{corpus}/{shard}/kinematics.log",
+    params:
+        code=PLAN.digest("kinematics.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings=config["kinematics"],
+    script:
+        "../scripts/kinematics.py"
+
+
+rule gather:
+    """The tables of a corpus that both studies share."""
+    input:
+        recordings=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/recordings.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        intervals=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/intervals.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        minima=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/minima.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        gaps=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/gaps.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        plausibility=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/plausibility.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        excluded=lambda w: collect(
+            "<results>/{corpus}/shards/{shard}/excluded_{stage}.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+            stage=["reading", "wrists"],
+        ),
+    output:
+        recordings="<results>/{corpus}/recordings.csv",
+        intervals="<results>/{corpus}/intervals.csv",
+        minima="<results>/{corpus}/minima.csv",
+        gaps="<results>/{corpus}/gaps.csv",
+        plausibility="<results>/{corpus}/plausibility.csv",
+        excluded="<results>/{corpus}/excluded.csv",
+    log:
+        "<logs>/{corpus}/gather.log",
+    params:
+        code=PLAN.digest("gather.py"),
+        unit=lambda w: PLAN.corpora[w.corpus].unit,
+    script:
+        "../scripts/gather.py"

@@ -1,0 +1,41 @@
+# The overview of the workflow and the page that shows everything.
+
+
+rule overview:
+    """This graph (Fig. 3)."""
+    input:
+        snakefile=Path(workflow.basedir) / "Snakefile",
+        rules=sorted((Path(workflow.basedir) / "workflow" / "rules").glob("*.smk")),
+    output:
+        svg="<results>/naert2017/fig03.svg",
+        pdf="<results>/naert2017/fig03.pdf",
+        csv="<results>/naert2017/fig03.csv",
+    log:
+        "<logs>/overview.log",
+    params:
+        code=PLAN.digest("overview.py"),
+        config=config,
+        corpora=sorted(PLAN.corpora),
+    script:
+        "../scripts/overview.py"
+
+
+rule report:
+    """The page you are reading."""
+    input:
+        rules.naert2017.input,
+        overview=rules.overview.output,
+        shared=collect(rules.gather.output, corpus=PLAN.corpora),
+        exhibits=PLAN.papers / "naert2017" / "exhibits.yaml",
+        descriptions=[PLAN.description(corpus) for corpus in PLAN.corpora],
+    output:
+        page="<results>/report/index.html",
+    log:
+        "<logs>/report.log",
+    params:
+        code=PLAN.digest("report.py"),
+        corpora={name: str(corpus.folder) for name, corpus in PLAN.corpora.items()},
+        missing=dict(PLAN.missing),
+        config={k: v for k, v in config.items() if k != "data_dir"},
+    script:
+        "../scripts/report.py"
