@@ -88,4 +88,3 @@ class Annotation:
                 f"{len(late)} intervals end after the motion, the last at {last.end_s:.3f} s",
                 f"no time after {duration_s:.3f} s, the end of the motion",
             )
-

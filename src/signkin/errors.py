@@ -56,7 +56,7 @@ class SignkinError(Exception):
 
 
 def _rebuild(found: str, parts: dict[str, str | None]) -> SignkinError:
-    return SignkinError(found, **parts)  # type: ignore[arg-type]
+    return SignkinError(found, **parts)
 
 
 def listed(names: object, most: int = 12) -> str:

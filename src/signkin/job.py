@@ -23,17 +23,20 @@ def job(snakemake: Any) -> Iterator[None]:
     terminal = sys.stderr
     log_path = Path(snakemake.log[0])
     log_path.parent.mkdir(parents=True, exist_ok=True)
-    with log_path.open("w", encoding="utf-8", buffering=1) as log:
-        with redirect_stdout(log), redirect_stderr(log):
-            warnings.simplefilter("default")
-            try:
-                yield
-            except SignkinError as error:
-                print(f"signkin: {error}", file=log)
-                print(f"\nsignkin: {error}\n", file=terminal)
-                sys.exit(1)
-            except Exception:
-                text = traceback.format_exc()
-                print(text, file=log)
-                print(f"\n{text}", file=terminal)
-                sys.exit(1)
+    with (
+        log_path.open("w", encoding="utf-8", buffering=1) as log,
+        redirect_stdout(log),
+        redirect_stderr(log),
+    ):
+        warnings.simplefilter("default")
+        try:
+            yield
+        except SignkinError as error:
+            print(f"signkin: {error}", file=log)
+            print(f"\nsignkin: {error}\n", file=terminal)
+            sys.exit(1)
+        except Exception:
+            text = traceback.format_exc()
+            print(text, file=log)
+            print(f"\n{text}", file=terminal)
+            sys.exit(1)

@@ -34,7 +34,7 @@ def is_arm_part(part: str) -> bool:
 
 
 def split(joint: str) -> tuple[str | None, str]:
-    """Return the side and the part: `right_wrist` -> (`right`, `wrist`); midline -> (None, name)."""
+    """Return side and part: `right_wrist` -> (`right`, `wrist`); midline -> (None, name)."""
     for hand in HANDS:
         if joint.startswith(f"{hand}_"):
             return hand, joint.removeprefix(f"{hand}_")

@@ -286,6 +286,7 @@ TABLES: dict[str, Table] = {
                 _text("hand", "right or left; both for tags"),
                 _text("edge", "start or end of a sign, for tags and refined tags"),
                 _text("gloss", "sign the tag belongs to"),
+                _text("status", "moved, far or taken, for refined tags (see boundaries)"),
                 Column("time_s", "s", "time in the recording"),
                 Column("speed_{u}_per_s", "m/s or px/s", "low-passed speed of the wrist"),
             ),

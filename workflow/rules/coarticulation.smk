@@ -59,6 +59,7 @@ rule naert_tables:
             corpus=w.corpus,
             shard=PLAN.shards(w.corpus),
         ),
+        about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         minima=rules.gather.output.minima,
         published=PLAN.papers / "naert2017" / "table2.csv",
@@ -165,4 +166,6 @@ rule naert2017:
         collect(rules.naert_tables.output, corpus=PLAN.tagged),
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
         collect(rules.write_elan.output, corpus=PLAN.with_elan),
-        collect(rules.simulation_check.output, corpus=PLAN.simulated_by("lsf-sim")),
+        collect(
+            rules.simulation_check.output, corpus=PLAN.simulated_by("lsf-sim") or []
+        ),

@@ -1,25 +1,27 @@
 # Raw files to canonical recordings and tags.
 
-for name in PLAN.simulated_by("lsf-sim"):
+if PLAN.simulated_by("lsf-sim"):
+    LSF_SIM = PLAN.simulated_by("lsf-sim")
 
-    rule:
-        name:
-            f"simulate_{name.replace('-', '_')}"
+    rule simulate_lsf:
+        """Signing with known truth, written as BVH and ELAN files."""
         input:
-            description=PLAN.description(name),
+            description=PLAN.description(LSF_SIM),
             table2=PLAN.papers / "naert2017" / "table2.csv",
             constants=PLAN.papers / "naert2017" / "constants.csv",
         output:
-            data=[
-                f"<results>/{name}/simulated/{file}" for file in PLAN.corpora[name].files()
-            ],
-            truth=f"<results>/{name}/simulated/truth.csv",
-            design=f"<results>/{name}/simulated/design.csv",
+            data=collect(
+                "<results>/{corpus}/simulated/{file}",
+                corpus=LSF_SIM,
+                file=PLAN.corpora[LSF_SIM].files(),
+            ),
+            truth=f"<results>/{LSF_SIM}/simulated/truth.csv",
+            design=f"<results>/{LSF_SIM}/simulated/design.csv",
         log:
-            f"<logs>/{name}/simulate.log",
+            f"<logs>/{LSF_SIM}/simulate.log",
         params:
             code=PLAN.digest("simulate_lsf.py"),
-            corpus=str(PLAN.corpora[name].folder),
+            corpus=str(PLAN.corpora[LSF_SIM].folder),
             seed=config["seed"],
             euclidean_unit_m=config["transitions"]["euclidean_unit_m"],
         script:

@@ -69,3 +69,23 @@ rule gather:
         unit=lambda w: PLAN.corpora[w.corpus].unit,
     script:
         "../scripts/gather.py"
+
+
+rule wrist_speeds:
+    """Speed curves of a corpus without tags."""
+    input:
+        frames=lambda w: collect(
+            "<results>/{corpus}/kinematics/{shard}.parquet",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        minima=rules.gather.output.minima,
+    output:
+        figure=multiext("<results>/{corpus}/fig_speed", ".svg", ".pdf"),
+    log:
+        "<logs>/{corpus}/wrist_speeds.log",
+    params:
+        code=PLAN.digest("wrist_speeds.py"),
+        unit=lambda w: PLAN.corpora[w.corpus].unit,
+    script:
+        "../scripts/wrist_speeds.py"

@@ -26,7 +26,11 @@ rule report:
         rules.naert2017.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
-        exhibits=PLAN.papers / "naert2017" / "exhibits.yaml",
+        speeds=collect(rules.wrist_speeds.output, corpus=PLAN.untagged),
+        paper=[
+            PLAN.papers / "naert2017" / name
+            for name in ("exhibits.yaml", "constants.csv", "table2.csv")
+        ],
         descriptions=[PLAN.description(corpus) for corpus in PLAN.corpora],
     output:
         page="<results>/report/index.html",

@@ -25,7 +25,13 @@ with job(snakemake):
     table1 = coarticulation.table1(corpus, intervals, sign_types)
     table2 = naert2017.table2(corpus.name, moves, published, settings["transitions"])
     refinement, chance = coarticulation.refinement(
-        corpus, intervals, minima, boundaries, settings["refinement"], snakemake.params.seed
+        corpus,
+        tables.read_table(source.about, "recordings"),
+        intervals,
+        minima,
+        boundaries,
+        settings["refinement"],
+        snakemake.params.seed,
     )
     for table, name, path in (
         (boundaries, "boundaries", out.boundaries),

@@ -1,7 +1,6 @@
 from signkin.job import job
 
 with job(snakemake):
-    import sys
     from pathlib import Path
 
     import matplotlib.pyplot as plt

@@ -13,7 +13,7 @@ with job(snakemake):
         results=page_file.parents[1],
         corpora=corpora,
         missing=snakemake.params.missing,
-        exhibits=Path(snakemake.input.exhibits),
+        paper=Path(snakemake.input.paper[0]).parent,
         config=snakemake.params.config,
     )
     page_file.write_text(render(make_page(sources), page_file.parent), encoding="utf-8")

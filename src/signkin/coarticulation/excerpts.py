@@ -141,13 +141,14 @@ def excerpt_points(
     ]  # fmt: skip
     tags = boundaries[boundaries["recording"] == excerpt.recording]
     manual = tags[tags["hand"] == "right"].rename(columns={"manual_s": "time_s"})
-    parts.append(manual.assign(kind="tag", hand="both"))
+    parts.append(manual.assign(kind="tag", hand="both", status=""))
     low = minima[minima["recording"] == excerpt.recording]
     parts.append(low.rename(columns={"minimum_s": "time_s"}).assign(kind="minimum"))
     parts.append(tags.rename(columns={"refined_s": "time_s"}).assign(kind="refined"))
-    columns = ["kind", "hand", "edge", "gloss", "time_s", speed_column]
+    columns = ["kind", "hand", "edge", "gloss", "status", "time_s", speed_column]
     points = pd.concat([part.reindex(columns=columns) for part in parts], ignore_index=True)
-    points[["edge", "gloss"]] = points[["edge", "gloss"]].fillna("")
+    texts = ["edge", "gloss", "status"]
+    points[texts] = points[texts].fillna("")
     seen = (points["time_s"] >= excerpt.from_s) & (points["time_s"] <= excerpt.to_s)
     points = points[seen].reset_index(drop=True)
     points.insert(0, "recording", excerpt.recording)

@@ -6,9 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def geodesic_distance(
-    q1: NDArray[np.float64], q2: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def geodesic_distance(q1: NDArray[np.float64], q2: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the mean over joints of ||log(q1^-1 q2)||, in radians (eq. 1).
 
     q1, q2: (..., J, 4) unit quaternions, scalar-last. The logarithm of a unit quaternion
@@ -23,9 +21,7 @@ def geodesic_distance(
     return _mean_over_joints(np.arctan2(np.linalg.norm(vector, axis=-1), cosine))
 
 
-def euclidean_distance(
-    p1: NDArray[np.float64], p2: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def euclidean_distance(p1: NDArray[np.float64], p2: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the mean over joints of ||p1 - p2||, in the positions' unit (eq. 2).
 
     p1, p2: (..., J, 3). Joints with a gap in either posture are left out of the mean.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -139,16 +140,20 @@ def boundary_rows(
 def chance_distances(
     signs: Sequence[Interval],
     minima_s: NDArray[np.float64],
+    rate_hz: float,
     draws: int,
     rng: np.random.Generator,
 ) -> NDArray[np.float64]:
     """Return distances to the nearest minimum of tags placed at random, (draws, tags).
 
-    As many tags as the annotator placed, uniform over the annotated part of the recording.
+    As many tags as the annotator placed, uniform over the annotated part of the recording, on
+    whole frames: tags and minima stand on frames too, and within a window of a few frames the
+    difference counts.
     """
     low = min(sign.start_s for sign in signs)
     high = max(sign.end_s for sign in signs)
-    random_tags = rng.uniform(low, high, size=(draws, 2 * len(signs)))
+    frames = rng.integers(round(low * rate_hz), round(high * rate_hz) + 1, (draws, 2 * len(signs)))
+    random_tags = frames / rate_hz
     return np.abs(nearest(random_tags, minima_s) - random_tags)
 
 
@@ -171,7 +176,7 @@ def refinement_quality(
         random_distance = np.concatenate(pieces, axis=1) if pieces else np.empty((1, 0))
         reach = window_s + tolerance_s
         for measure, unit, statistic in (
-            ("tags with a minimum within the window", "share", lambda d: _share(d, reach)),
+            ("tags with a minimum within the window", "share", partial(_share, reach=reach)),
             ("median distance to the nearest minimum", "s", _median),
         ):
             draws = np.array([statistic(row) for row in random_distance])
@@ -198,7 +203,17 @@ def refinement_quality(
             }
         )
     rows += _offset_rows(boundaries)
-    columns = ["hand", "measure", "value", "unit", "chance", "chance_low", "chance_high", "n", "note"]
+    columns = [
+        "hand",
+        "measure",
+        "value",
+        "unit",
+        "chance",
+        "chance_low",
+        "chance_high",
+        "n",
+        "note",
+    ]
     return pd.DataFrame(rows).reindex(columns=columns)
 
 
@@ -248,9 +263,7 @@ def truth_errors(boundaries: pd.DataFrame, truth: pd.DataFrame) -> pd.DataFrame:
     return both[[*keys, "manual_error_s", "refined_error_s"]]
 
 
-def truth_summary(
-    errors: pd.DataFrame, draws: int, rng: np.random.Generator
-) -> pd.DataFrame:
+def truth_summary(errors: pd.DataFrame, draws: int, rng: np.random.Generator) -> pd.DataFrame:
     """Summarise errors to truth before and after refinement, per hand, with bootstrap intervals."""
     rows = []
     for hand in HANDS:

@@ -113,7 +113,12 @@ def _infer(
     span = wrists.frames(sign.start_s, sign.end_s)
     right, left = wrists.right[span], wrists.left[span]
     paths = {"right": _path(right), "left": _path(left)}
-    out: dict[str, object] = {"activity": np.nan, "mirror": np.nan, "held_shift": np.nan, "note": ""}
+    out: dict[str, object] = {
+        "activity": np.nan,
+        "mirror": np.nan,
+        "held_shift": np.nan,
+        "note": "",
+    }
     if not all(np.isfinite(path) for path in paths.values()):
         seen = [hand for hand, path in paths.items() if np.isfinite(path)]
         note = "a wrist is missing: taken for one-handed" if seen else "both wrists are missing"

@@ -117,7 +117,9 @@ def _distances(
     p1, p2 = recording.positions[first, joints], recording.positions[second, joints]
     geodesic = float("nan")
     if orientations is not None:
-        geodesic = float(geodesic_distance(orientations[first, joints], orientations[second, joints]))
+        geodesic = float(
+            geodesic_distance(orientations[first, joints], orientations[second, joints])
+        )
     return {
         "geodesic_rad": geodesic,
         f"euclidean_{recording.unit}": float(euclidean_distance(p1, p2)),

@@ -15,9 +15,7 @@ DISTANCE_LABEL = "mean of the normalised distances"
 DURATION_LABEL = "duration (s)"
 
 
-def plot_distances(
-    points: pd.DataFrame, line: tuple[float, float] | None, *, ax: Axes
-) -> Axes:
+def plot_distances(points: pd.DataFrame, line: tuple[float, float] | None, *, ax: Axes) -> Axes:
     """Draw Fig. 7: each transition's duration over its mean distance, with the straight line.
 
     points: rows of the table `distances`. line: (slope, intercept) or None.

@@ -82,5 +82,8 @@ def plot_surface_check(surface: pd.DataFrame, *, ax: Axes) -> Axes:
     ax.set_xticks(at, [f"θ {term}" for term in surface["coefficient"]])
     ax.set_xlim(-0.5, len(surface) - 0.5)
     ax.set(ylabel="coefficient / printed coefficient")
-    ax.legend(loc="best")
+    # Room above the intervals for the legend.
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.45 * (high - low))
+    ax.legend(loc="upper center")
     return ax

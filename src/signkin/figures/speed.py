@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -17,9 +19,12 @@ def plot_speed(points: pd.DataFrame, unit: str, rate_hz: float, *, ax: Axes, mar
     Seconds below, frames above, as the paper counts them.
     """
     column = f"speed_{unit}_per_s"
-    for hand, style in (("right", {"lw": 1.3}), ("left", {"lw": 1.0, "marker": ".", "ms": 2.5})):
+    for hand, marker, width in (("right", "", 1.3), ("left", ".", 1.0)):
         curve = points[(points["kind"] == "speed") & (points["hand"] == hand)]
-        ax.plot(curve["time_s"], curve[column], color=HAND_COLOURS[hand], zorder=3, **style)
+        ax.plot(
+            curve["time_s"], curve[column], color=HAND_COLOURS[hand], lw=width, marker=marker,
+            ms=2.5, zorder=3,
+        )  # fmt: skip
     tags = points[points["kind"] == "tag"]
     for tag in tags.itertuples():
         ax.axvline(tag.time_s, color=MANUAL, lw=1.3, ls="-" if tag.edge == "start" else "--")
@@ -28,17 +33,30 @@ def plot_speed(points: pd.DataFrame, unit: str, rate_hz: float, *, ax: Axes, mar
         # The hands' marks end at different heights, so that one on the other stays visible.
         span = (0.0, 0.86) if row.hand == "right" else (0.0, 0.80)
         solid = kind == "refined" and row.edge == "start"
-        style = "-" if solid else "--" if kind == "refined" else ":"
-        ax.axvline(row.time_s, *span, color=HAND_COLOURS[row.hand], lw=1.0, ls=style, alpha=0.9)
+        dashes = "-" if solid else "--" if kind == "refined" else ":"
+        ax.axvline(row.time_s, *span, color=HAND_COLOURS[row.hand], lw=1.0, ls=dashes, alpha=0.9)
+    stays = points[(points["kind"] == "refined") & (points["status"] == "far")]
+    if kind == "refined":
+        for row in stays.itertuples():
+            height = 0.89 if row.hand == "right" else 0.83
+            ax.plot(
+                row.time_s, height, marker="x", ms=5, mew=1.4, color=HAND_COLOURS[row.hand],
+                transform=ax.get_xaxis_transform(), zorder=5,
+            )  # fmt: skip
     if not points.empty:
         ax.set_xlim(points["time_s"].min(), points["time_s"].max())
-    top = points[column].max()
+    top = points.loc[points["kind"] == "speed", column].max()
     ax.set_ylim(0, top * 1.28)
     _name_signs(tags, ax)
     ax.set(xlabel="time in the recording (s)", ylabel=f"wrist speed ({SPEED_UNITS[unit]})")
-    frames = ax.secondary_xaxis(
-        "top", functions=(lambda t: t * rate_hz, lambda frame: frame / rate_hz)
-    )
+
+    def to_frames(time_s: Any) -> Any:
+        return time_s * rate_hz
+
+    def to_seconds(frame: Any) -> Any:
+        return frame / rate_hz
+
+    frames = ax.secondary_xaxis("top", functions=(to_frames, to_seconds))
     frames.set_xlabel(f"frame ({rate_hz:g} Hz)")
     ax.legend(
         handles=_handles(marks), loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=4,
@@ -90,4 +108,19 @@ def _handles(marks: str) -> list[Line2D]:
         line("end", right, "--"),
         line("start, refined: left", left),
         line("end", left, "--"),
+        line("tag stays: no minimum near", "0.3", "none", marker="x", ms=5, mew=1.4),
     ]
+
+
+def plot_recording(frames: pd.DataFrame, minima: pd.DataFrame, unit: str, *, ax: Axes) -> Axes:
+    """Draw the speed of both wrists over a whole recording, with dots at the minima.
+
+    frames: kinematics of one recording. minima: its rows of the table `minima`.
+    """
+    for hand, colour in HAND_COLOURS.items():
+        ax.plot(frames["time_s"], frames[f"{hand}_speed_{unit}_per_s"], color=colour, lw=1)
+        low = minima[minima["hand"] == hand]
+        ax.scatter(low["minimum_s"], low[f"speed_{unit}_per_s"], s=9, color=colour, lw=0, zorder=3)
+    ax.set(ylabel=f"speed ({SPEED_UNITS[unit]})", xlim=(0, frames["time_s"].max()))
+    ax.set_ylim(bottom=0)
+    return ax

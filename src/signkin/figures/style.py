@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import seaborn as sns
 from matplotlib.figure import Figure
 
@@ -49,4 +50,4 @@ def save(figure: Figure, svg: str | Path, pdf: str | Path) -> None:
     """Write a figure as SVG and PDF, without the date that would change every time."""
     figure.savefig(svg, metadata={"Date": None, "Creator": "signkin"})
     figure.savefig(pdf, metadata={"CreationDate": None, "Creator": "signkin", "Producer": None})
-    mpl.pyplot.close(figure)
+    plt.close(figure)

@@ -230,9 +230,7 @@ class NewTier:
     intervals: tuple[Interval, ...]
 
 
-def insert_tiers(
-    content: bytes, tiers: Sequence[NewTier], clock_offset_s: float = 0.0
-) -> bytes:
+def insert_tiers(content: bytes, tiers: Sequence[NewTier], clock_offset_s: float = 0.0) -> bytes:
     """Return an ELAN file's bytes with tiers added and everything else untouched.
 
     Tiers that an earlier call inserted are replaced. Each time becomes a time slot

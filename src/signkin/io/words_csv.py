@@ -44,7 +44,9 @@ def read_words_csv(
     else:
         tier_of = [tiers[0] if tiers else "sign"] * len(rows)
     intervals = []
-    for line, start, end, label, tier in zip(rows.index, starts, ends, labels, tier_of, strict=True):
+    for line, start, end, label, tier in zip(
+        rows.index, starts, ends, labels, tier_of, strict=True
+    ):
         if not start < end:
             raise SignkinError(
                 f"{label!r} runs from {start:.3f} s to {end:.3f} s",

@@ -48,7 +48,7 @@ def lowpass(
     flat = np.asarray(x, dtype=float).reshape(len(x), -1)
     out = np.full_like(flat, np.nan)
     taps = fir_taps(rate_hz, cutoff_hz) if method == "fir" else None
-    sos = None if method == "fir" else butter(order, cutoff_hz, fs=rate_hz, output="sos")
+    sos = butter(order, cutoff_hz, fs=rate_hz, output="sos")
     for column in range(flat.shape[1]):
         for first, end in stretches(~np.isnan(flat[:, column])):
             piece = flat[first:end, column]

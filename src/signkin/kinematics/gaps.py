@@ -26,7 +26,7 @@ def fill_gaps(
     Returns the filled track and which frames were filled, (F,). The filling is a
     shape-preserving cubic (PCHIP), which does not overshoot.
     """
-    gap = np.isnan(track).any(axis=1)
+    gap = np.asarray(np.isnan(track).any(axis=1))
     filled = np.zeros(len(track), dtype=bool)
     longest = longest_gap_s * rate_hz + 1e-9
     for first, end in stretches(gap):

@@ -36,7 +36,7 @@ LIMITS = {
     # Fast signing moves the wrist at 2-3 m/s at its peaks; a whole recording whose fastest
     # hundredth exceeds 4.5 m/s, or never comes to 0.1 m/s, is not signing at that rate.
     "wrist speed": Limit(0.10, 4.5, "m/s"),
-    "limb length variation": Limit(0.0, 0.20, ""),
+    "limb length variation": Limit(0.0, 0.20, "of the length"),
 }
 SHOULDER_WIDTH_M = 0.36
 TYPICAL_WRIST_SPEED = 1.5  # m/s, 99th percentile of ordinary signing
@@ -150,7 +150,10 @@ def _swap_finding(recording: Recording) -> Finding:
         jumps = (swapped < 0.3 * same) & (same > apart)
     count = int(np.count_nonzero(jumps))
     return _finding(
-        "frames at which the hands swap", count, Limit(0, 0, ""), "the sides may be mixed up"
+        "frames at which the hands swap",
+        count,
+        Limit(0, 0, "frames"),
+        "the tracker may have mixed up the sides there",
     )
 
 
@@ -164,9 +167,7 @@ def _finding(check: str, value: float, limit: Limit, note: str) -> Finding:
     return Finding(check, value, limit.unit, limit.low, limit.high, verdict, "" if fine else note)
 
 
-def _untestable(
-    check: str, limit: Limit, recording: Recording, joints: tuple[str, ...]
-) -> Finding:
+def _untestable(check: str, limit: Limit, recording: Recording, joints: tuple[str, ...]) -> Finding:
     missing = [joint for joint in joints if joint not in recording.joints]
     why = (
         f"no {', '.join(missing)}"

@@ -30,7 +30,7 @@ def intervals_of(intervals: pd.DataFrame, recording: str, role: str) -> list[Int
     """Return the intervals of one role of a recording, in order of start."""
     rows = intervals[(intervals["recording"] == recording) & (intervals["role"] == role)]
     return sorted(
-        Interval(float(r.start_s), float(r.end_s), str(r.label), str(r.tier))  # type: ignore[arg-type]
+        Interval(float(r.start_s), float(r.end_s), str(r.label), str(r.tier))
         for r in rows.itertuples(index=False)
     )
 
@@ -119,7 +119,9 @@ def _filled(recording: Recording, longest_gap_s: float) -> Recording:
     positions = recording.positions.copy()
     for joint in range(len(recording.joints)):
         if np.isnan(positions[:, joint]).any():
-            positions[:, joint] = fill_gaps(positions[:, joint], recording.rate_hz, longest_gap_s)[0]
+            positions[:, joint] = fill_gaps(positions[:, joint], recording.rate_hz, longest_gap_s)[
+                0
+            ]
     return replace(recording, positions=positions)
 
 
@@ -147,9 +149,7 @@ def _tags(refined: pd.DataFrame, recording: str, hand: str) -> np.ndarray:
     return rows["refined_s"].to_numpy(dtype=float).reshape(-1, 2)
 
 
-def table1(
-    corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame
-) -> pd.DataFrame:
+def table1(corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame) -> pd.DataFrame:
     """Return utterances with their glosses and, where there is a tier for it, a translation.
 
     Without an utterance tier the translation tier tells the utterances, without both the
@@ -195,14 +195,20 @@ def _stretches(
 
 def refinement(
     corpus: Corpus,
+    about: pd.DataFrame,
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
     bounds: pd.DataFrame,
     settings: Mapping[str, Any],
     seed: int,
 ) -> tuple[pd.DataFrame, dict[str, np.ndarray]]:
-    """Return the table `refinement`, and all chance distances (draws, tags) of each hand."""
+    """Return the table `refinement`, and all chance distances (draws, tags) of each hand.
+
+    about: the table `recordings`. bounds: the table `boundaries`. settings: config's
+    `refinement`.
+    """
     chance = {}
+    rates = about.set_index("recording")["rate_hz"]
     for name in dict.fromkeys(bounds["recording"]):
         signs = intervals_of(intervals, name, "sign")
         for hand in HANDS:
@@ -210,6 +216,7 @@ def refinement(
             chance[(name, hand)] = chance_distances(
                 signs,
                 minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                float(rates[name]),
                 settings["draws"],
                 seeds.stream(seed, corpus.name, name, hand, "chance"),
             )

@@ -26,7 +26,9 @@ def refined_copies(folder: Path, about: pd.DataFrame, boundaries: pd.DataFrame) 
         tiers = [NewTier(f"signkin refined {hand}", _refined(rows, hand)) for hand in HANDS]
         try:
             out[f"{row.recording}.eaf"] = insert_tiers(
-                path.read_bytes(), tiers, float(row.clock_offset_s)  # type: ignore[arg-type]
+                path.read_bytes(),
+                tiers,
+                float(row.clock_offset_s),
             )
         except SignkinError as error:
             raise error.at(file=path) from error

@@ -63,9 +63,7 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
     return out
 
 
-def excluded_row(
-    corpus: Corpus, recording: str, stage: str, error: SignkinError
-) -> dict[str, Any]:
+def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError) -> dict[str, Any]:
     """Return the row that lists a recording as left out, or raise where that is not allowed."""
     if corpus.settings.get("on_error", "stop") != "skip":
         raise error

@@ -69,7 +69,7 @@ def _gap_rows(recording: Recording, longest_gap_s: float) -> list[dict[str, Any]
     rows = []
     for joint in recording.joints:
         track = recording.track(joint)
-        gap = np.isnan(track).any(axis=1)
+        gap = np.asarray(np.isnan(track).any(axis=1))
         if gap.any():
             filled = fill_gaps(track, recording.rate_hz, longest_gap_s)[1]
             rows.append(

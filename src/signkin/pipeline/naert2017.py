@@ -41,7 +41,7 @@ def counted(transitions: pd.DataFrame) -> pd.DataFrame:
 
 
 def left_out(transitions: pd.DataFrame) -> pd.DataFrame:
-    """Return the transitions between manual tags that are special: overlapping or of zero length."""
+    """Return the transitions between manual tags that overlap or have zero length."""
     whole = (transitions["segmentation"] == "manual") & (transitions["hand"] == "both")
     return transitions[whole & (transitions["status"] != "ok")].reset_index(drop=True)
 
@@ -88,7 +88,9 @@ def diamond_table(
     _, shape = with_flags(transitions, settings)
     if shape is None:
         return pd.DataFrame(columns=names)
-    rows = [(corpus, c, x, y, shape.share, len(shape.inside)) for c, (x, y) in shape.corners.items()]
+    rows = [
+        (corpus, c, x, y, shape.share, len(shape.inside)) for c, (x, y) in shape.corners.items()
+    ]
     return pd.DataFrame(rows, columns=names)
 
 
@@ -177,11 +179,16 @@ def _distance_figure(corpus: Corpus, points: pd.DataFrame, settings: Mapping[str
     line = descriptive.trend(x, y)
     figure, ax = plt.subplots(figsize=(4.6, 3.4))
     distance.plot_distances(drawn, None if line is None else (line.slope, line.intercept), ax=ax)
-    caption = f"Duration of the transitions over the mean of the two normalised distances; {_counts(points)}."
+    caption = (
+        "Duration of the transitions over the mean of the two normalised distances; "
+        f"{_counts(points)}."
+    )
     if line is not None:
         caption += f" Least-squares line: {line.slope:.3f} s a unit, Pearson r = {line.r:.2f}."
     fences = settings["transitions"]["outlier_iqr"]
-    caption += f" Outliers: {int(drawn['outlier'].sum())}, more than {fences:g} interquartile ranges "
+    caption += (
+        f" Outliers: {int(drawn['outlier'].sum())}, more than {fences:g} interquartile ranges "
+    )
     caption += f"outside the quartiles. {_distance_note(corpus)}"
     return Drawn(figure, points, caption)
 
@@ -195,11 +202,16 @@ def _diamond_figure(
     drawn = points[points["mean_distance"].notna()]
     figure, ax = plt.subplots(figsize=(4.6, 3.4))
     distance.plot_diamond(drawn, {} if shape is None else shape.corners, ax=ax)
-    share = "" if shape is None else f" It holds {int(shape.inside.sum())} of {len(drawn)} ({shape.share:.1%})."
+    share = (
+        ""
+        if shape is None
+        else f" It holds {int(shape.inside.sum())} of {len(drawn)} ({shape.share:.1%})."
+    )
     caption = (
         f"The smallest diamond that holds more than {settings['transitions']['diamond_share']:.0%} "
-        f"of the transitions; {_counts(points)}.{share} Centre: medians; diagonals as the "
-        "interquartile ranges (the paper prints no corners). Corners in diamond.csv."
+        f"of the transitions; {_counts(points)}.{share} Its sides rise and fall by the ratio of "
+        "the two interquartile ranges (the paper prints neither corners nor a rule). Corners in "
+        "diamond.csv."
     )
     return Drawn(figure, points, caption)
 
@@ -232,11 +244,13 @@ def _segmentation_figure(corpus: Corpus, transitions: pd.DataFrame) -> Drawn:
         hand: (g["refined_duration_s"] - g["manual_duration_s"]).abs().median()
         for hand, g in whole.groupby("hand")
     }
-    told = ", ".join(f"{hand} {changed[hand]:.3f} s" for hand in ("left", "right") if hand in changed)
+    told = ", ".join(
+        f"{hand} {changed[hand]:.3f} s" for hand in ("left", "right") if hand in changed
+    )
     caption = (
-        f"Duration over the mean Euclidean distance of one arm's joints, manual (blue diamonds) and "
-        f"refined tags (red disks); {len(whole)} pairs over both hands, overlapping signs shown with "
-        f"their negative durations. Median change of the duration: {told}."
+        f"Duration over the mean Euclidean distance of one arm's joints, manual (blue diamonds) "
+        f"and refined tags (red disks); {len(whole)} pairs over both hands, overlapping signs "
+        f"with their negative durations. Median change of the duration: {told}."
     )
     if unit == "px":
         caption += " Distances in image pixels; the hand's centre is the arm's only point."
@@ -283,4 +297,19 @@ def draw_simulation(errors: pd.DataFrame, surface: pd.DataFrame) -> Figure:
     figure, axes = plt.subplots(1, 2, figsize=(style.WIDTH_IN, 2.9))
     refinement.plot_truth(errors, ax=axes[0])
     refinement.plot_surface_check(surface, ax=axes[1])
+    return figure
+
+
+def draw_speeds(frames: Sequence[Path], minima: pd.DataFrame, unit: str, most: int) -> Figure:
+    """Draw wrist speeds and minima of the first recordings of a corpus, a panel each."""
+    kinematics = pd.concat([pd.read_parquet(path) for path in frames])
+    names = list(dict.fromkeys(kinematics["recording"]))[:most]
+    figure, axes = plt.subplots(
+        len(names), 1, figsize=(style.WIDTH_IN, 0.6 + 1.7 * len(names)), squeeze=False
+    )
+    for name, ax in zip(names, axes[:, 0], strict=True):
+        chosen = kinematics[kinematics["recording"] == name]
+        speed.plot_recording(chosen, minima[minima["recording"] == name], unit, ax=ax)
+        ax.set_title(name, loc="left")
+    axes[-1, 0].set_xlabel("time in the recording (s)")
     return figure

@@ -16,7 +16,7 @@ import pandas as pd
 from signkin import tables
 from signkin.errors import SignkinError
 
-TARGETS = ("all", "naert2017", "report")
+TARGETS = ("all", "naert2017")
 
 
 def rule_graph(snakefile: Path, config: Mapping[str, Any], target: str) -> str:
@@ -59,9 +59,7 @@ def rule_notes(rule_files: Sequence[Path]) -> dict[str, tuple[str, str]]:
     return notes
 
 
-def layout(
-    edges: Sequence[tuple[str, str]], notes: dict[str, tuple[str, str]]
-) -> pd.DataFrame:
+def layout(edges: Sequence[tuple[str, str]], notes: dict[str, tuple[str, str]]) -> pd.DataFrame:
     """Return a row a rule: rule, stage (its file), note, column, row.
 
     The column is the length of the longest path to the rule; rows follow the stages and the

@@ -16,6 +16,7 @@ from signkin.corpus import (
     data_folder,
     load_corpora,
 )
+from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
 
 
@@ -53,9 +54,16 @@ class Plan:
             if self.corpora[name].settings["annotation"]["format"] == "eaf"
         ]
 
-    def simulated_by(self, simulator: str) -> list[str]:
-        """Corpora that a simulator makes."""
-        return [name for name, corpus in self.corpora.items() if corpus.simulator == simulator]
+    def simulated_by(self, simulator: str) -> str | None:
+        """Return the corpus that a simulator makes in this run, None where there is none."""
+        names = [name for name, corpus in self.corpora.items() if corpus.simulator == simulator]
+        if len(names) > 1:
+            raise SignkinError(
+                f"the simulator {simulator} makes {listed(names)}",
+                place="key simulator",
+                expected="one corpus for each simulator",
+            )
+        return names[0] if names else None
 
     def shards(self, corpus: str) -> list[str]:
         """Return the names of a corpus's shards, `0001` and so on."""
@@ -117,8 +125,9 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         if corpus.simulator is None:
             check_files(corpus, folder)
         there[name], folders[name] = corpus, folder
+    order = sorted(there, key=lambda name: (there[name].simulator is None, name))
     return Plan(
-        corpora=there,
+        corpora={name: there[name] for name in order},
         folders=folders,
         missing=missing,
         recordings_per_job=config["recordings_per_job"],

@@ -17,6 +17,7 @@ from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
 S3 = ".3f"
+SPEED_PANELS = 4  # recordings drawn of a corpus without tags
 
 
 @dataclass(frozen=True)
@@ -24,14 +25,26 @@ class Sources:
     """Where a report's parts lie.
 
     results: the results folder. corpora: those of this run. missing: corpus -> reason.
-    exhibits: papers/naert2017/exhibits.yaml. config: config.yaml.
+    paper: the folder papers/naert2017. config: config.yaml.
     """
 
     results: Path
     corpora: Mapping[str, Corpus]
     missing: Mapping[str, str]
-    exhibits: Path
+    paper: Path
     config: Mapping[str, Any]
+
+    @property
+    def constants(self) -> Mapping[str, str]:
+        """Numbers that the paper prints in its text, as strings."""
+        frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
+        return dict(zip(frame["name"], frame["value"], strict=True))
+
+    @property
+    def published_n(self) -> int:
+        """Number of transitions in the paper's Table 2."""
+        frame = pd.read_csv(self.paper / "table2.csv", dtype=str, keep_default_na=False)
+        return int(frame["n"].astype(int).sum())
 
     def shared(self, corpus: str, table: str) -> Path:
         """Return the file of a table that both studies share."""
@@ -44,7 +57,8 @@ class Sources:
 
 def make_page(sources: Sources) -> Page:
     """Return the report of a run."""
-    exhibits = yaml.safe_load(sources.exhibits.read_text(encoding="utf-8"))["exhibits"]
+    text = (sources.paper / "exhibits.yaml").read_text(encoding="utf-8")
+    exhibits = yaml.safe_load(text)["exhibits"]
     labels = {exhibit["id"]: exhibit for exhibit in exhibits}
     sections = [_summary(sources), _overview(sources, labels)]
     for name, corpus in sources.corpora.items():
@@ -55,8 +69,9 @@ def make_page(sources: Sources) -> Page:
     return Page(
         title="Sign-language motion: tables and figures of Naert, Larboulette & Gibet 2017",
         lead=(
-            "The paper's analyses, run on every corpus of this run. Its own recordings (Sign3D) are "
-            "not public: its printed numbers stand beside ours, and no corpus here is the paper's.",
+            "The paper's analyses, run on every corpus of this run. Its own recordings (Sign3D) "
+            "are not public: its printed numbers stand beside ours, and no corpus here is the "
+            "paper's.",
         ),
         sections=sections,
         version=signkin.__version__,
@@ -85,7 +100,9 @@ def _summary(sources: Sources) -> Section:
         label="",
         title="Corpora of this run",
         caption="Transitions between manual tags, overlapping signs left out, zero-length ones "
-        "kept; SD with divisor n - 1. The paper: 89 transitions, mean 0.303 s, SD 0.098 s.",
+        "kept; SD with divisor n - 1. The paper (Sign3D, LSF): "
+        f"{sources.published_n} transitions, mean {sources.constants['mean_duration']} s, SD "
+        f"{sources.constants['sd_duration']} s.",
         frame=pd.DataFrame(rows, columns=list(columns)),
         columns=columns,
     )
@@ -132,7 +149,7 @@ def _implausible(sources: Sources, name: str) -> Iterator[str]:
             f"{name}: {check} is implausible in {len(rows)} of "
             f"{findings['recording'].nunique()} recordings (e.g. {worst['recording']}: "
             f"{worst['value']:.3g} {worst['unit']}, plausible {worst['low']:g} to "
-            f"{worst['high']:g}). {worst['note']}."
+            f"{worst['high']:g}): {worst['note']}."
         )
 
 
@@ -141,8 +158,8 @@ def _overview(sources: Sources, labels: Mapping[str, Any]) -> Section:
     view = FigureView(
         label=labels["fig03"]["label"],
         title=labels["fig03"]["title"],
-        caption="The rules of this run from raw motion to the report, each after those whose output "
-        "it takes; the number in brackets is the paper's section.",
+        caption="The rules of this run from raw motion to the report, each after those whose "
+        "output it takes; the number in brackets is the paper's section.",
         svg=base.with_suffix(".svg"),
         files=_files(base),
         differs=labels["fig03"]["differs"],
@@ -228,8 +245,8 @@ def _table2(sources: Sources, name: str, exhibit: Mapping[str, str]) -> TableVie
     rows = frame[frame["published_n"] != ""]
     caption = (
         f"Durations in s between manual tags, n = {int(frame['n'].iloc[-1])}, by four-digit type "
-        "(hands and symmetry of the sign before, then of the sign after); SD with divisor n - 1; in "
-        "brackets without outliers. Right: the paper's Table 2"
+        "(hands and symmetry of the sign before, then of the sign after); SD with divisor n - 1; "
+        "in brackets without outliers. Right: the paper's Table 2"
     )
     columns = {
         "type": ("type", ""),
@@ -278,8 +295,9 @@ def _refinement(sources: Sources, name: str) -> Iterator[TableView | FigureView]
     yield TableView(
         label="",
         title="How the tags lie to the speed minima",
-        caption=f"Window {settings['window_s']:g} s. Chance: {settings['draws']} sets of as many tags, "
-        "placed at random over the annotated part of each recording; mean and 95 % of the sets.",
+        caption=f"Window {settings['window_s']:g} s. Chance: {settings['draws']} sets of as many "
+        "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
+        "the sets.",
         frame=read_table(path, "refinement"),
         columns=columns,
         file=path,
@@ -303,10 +321,10 @@ def _left_out(sources: Sources, name: str) -> Iterator[TableView]:
         return
     counts = frame["status"].value_counts()
     told = [
-        f"{counts.get('zero_length', 0)} of zero length (one sign ends where the next starts; counted "
-        "in all tables)",
-        f"{counts.get('overlap', 0)} overlapping (the next sign starts before the last one ends; in no "
-        "table, negative durations)",
+        f"{counts.get('zero_length', 0)} of zero length (one sign ends where the next starts; "
+        "counted in all tables)",
+        f"{counts.get('overlap', 0)} overlapping (the next sign starts before the last one ends; "
+        "in no statistic, negative durations)",
     ]
     yield TableView(
         label="",
@@ -335,8 +353,8 @@ def _sign_types(sources: Sources, name: str) -> TableView:
     table = pd.crosstab(frame["lexicon"].replace("", "not in signs.csv"), frame["kinematic"])
     agree = int((known["lexicon"] == known["kinematic"]).sum())
     told = (
-        f"Of {len(known)} signs with a type in signs.csv, motion alone gives the same type to {agree} "
-        f"({agree / len(known):.0%}). "
+        f"Of {len(known)} signs with a type in signs.csv, motion alone gives the same type to "
+        f"{agree} ({agree / len(known):.0%}). "
         if len(known)
         else "No gloss stands in signs.csv. "
     )
@@ -379,10 +397,11 @@ def _simulation(sources: Sources, name: str) -> Iterator[TableView | FigureView]
     yield TableView(
         label="",
         title="The duration surface found again (eq. 4)",
-        caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean distance in "
-        f"units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the paper: 0.06075 "
-        "s). Designed: the same fit on the distances that the simulation was made to have between "
-        "the true boundaries; the tags stand off these, which shifts the fit.",
+        caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
+        f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
+        f"paper: {sources.constants['mean_error']} s). Designed: the same fit on the distances "
+        "that the simulation was made to have between the true boundaries; the tags stand off "
+        "these, which shifts the fit.",
         frame=frame,
         columns={
             "coefficient": ("coefficient", ""),
@@ -414,32 +433,52 @@ def _data_section(sources: Sources) -> Section:
         name: read_table(sources.shared(name, "recordings"), "recordings")
         for name in sources.corpora
     }
-    views = [
-        TableView(
-            label="",
-            title=f"Recordings: {name}",
-            caption=_about(sources, name, frame),
-            frame=frame,
-            columns={
-                "recording": ("recording", ""),
-                "signer": ("signer", ""),
-                "frames": ("frames", "d"),
-                "rate_hz": ("rate (Hz)", "g"),
-                "duration_s": ("length (s)", ".2f"),
-                "unit": ("unit", ""),
-                "joints": ("joints", "d"),
-                "orientations": ("orientations", ""),
-                "signs": ("signs", "d"),
-            },
-            file=sources.shared(name, "recordings"),
-            most=6,
-        )
-        for name, frame in frames.items()
-    ]
+    views: list[TableView | FigureView] = []
+    for name, frame in frames.items():
+        views.append(_recordings(sources, name, frame))
+        if not sources.corpora[name].tagged:
+            views.append(_speeds(sources, name, len(frame)))
     text = (
         "What was read, with its gaps, and whether rate and unit are possible for a human body.",
     )
     return Section("data", "Data and quality", text=text, exhibits=views)
+
+
+def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
+    return TableView(
+        label="",
+        title=f"Recordings: {name}",
+        caption=_about(sources, name, frame),
+        frame=frame,
+        columns={
+            "recording": ("recording", ""),
+            "signer": ("signer", ""),
+            "frames": ("frames", "d"),
+            "rate_hz": ("rate (Hz)", "g"),
+            "duration_s": ("length (s)", ".2f"),
+            "unit": ("unit", ""),
+            "joints": ("joints", "d"),
+            "orientations": ("orientations", ""),
+            "signs": ("signs", "d"),
+        },
+        file=sources.shared(name, "recordings"),
+        most=6,
+    )
+
+
+def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
+    base = sources.results / name / "fig_speed"
+    lowpass = sources.config["kinematics"]["lowpass"]
+    shown = min(recordings, SPEED_PANELS)
+    return FigureView(
+        label="",
+        title=f"Wrist speed: {name}",
+        caption=f"Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
+        f"{shown} of {recordings} recordings; low-pass: {lowpass['method']}, half gain at "
+        f"{lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to refine.",
+        svg=base.with_suffix(".svg"),
+        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
+    )
 
 
 def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
@@ -452,12 +491,14 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
     else:
         worst = gaps.loc[gaps["longest_gap_s"].idxmax()]
         parts.append(
-            f"Gaps at {gaps['joint'].nunique()} joints: {int(gaps['missing_frames'].sum())} missing "
-            f"positions, {int(gaps['filled_frames'].sum())} of them filled (gaps up to "
+            f"Gaps at {gaps['joint'].nunique()} joints: {int(gaps['missing_frames'].sum())} "
+            f"missing positions, {int(gaps['filled_frames'].sum())} of them filled (gaps up to "
             f"{sources.config['kinematics']['longest_gap_s']:g} s); the longest gap lasts "
             f"{worst['longest_gap_s']:.2f} s ({worst['joint']}, {worst['recording']})."
         )
-    told = ", ".join(f"{int(verdicts.get(v, 0))} {v}" for v in ("plausible", "implausible", "not testable"))
+    told = ", ".join(
+        f"{int(verdicts.get(v, 0))} {v}" for v in ("plausible", "implausible", "not testable")
+    )
     parts.append(f"Plausibility checks of lengths and speeds: {told}.")
     return " ".join(parts)
 

@@ -1,4 +1,4 @@
-"""What a simulated corpus is for: the error of the tags to the truth, and the surface found again."""
+"""What a simulated corpus is for: errors to the truth, and the surface found again."""
 
 from __future__ import annotations
 

@@ -19,7 +19,9 @@ ARM_MOVES = slice(0, 4)  # coordinates that carry the wrist
 HAND_MOVES = slice(4, 12)  # coordinates that turn the hand and shape it
 RELAXED_FINGERS = 0.25  # flexion of each finger joint at coordinate 0, radians
 
-_TORSO = (
+Offset = tuple[float, float, float]
+
+_TORSO: tuple[tuple[str, str | None, Offset], ...] = (
     ("Hips", None, (0, 95, 0)),
     ("Spine", "Hips", (0, 12, 0)),
     ("Chest", "Spine", (0, 15, 0)),
@@ -27,20 +29,20 @@ _TORSO = (
     ("Head", "Neck", (0, 10, 1)),
 )
 # The right arm in a T-pose; the left one is its mirror image.
-_ARM = (
+_ARM: tuple[tuple[str, str, Offset], ...] = (
     ("Collar", "Chest", (-3, 17, 1)),
     ("Arm", "Collar", (-14, 0, 0)),
     ("ForeArm", "Arm", (-28, 0, 0)),
     ("Hand", "ForeArm", (-25, 0, 0)),
 )
-_FINGERS = {
+_FINGERS: dict[str, tuple[Offset, ...]] = {
     "Thumb": ((-3, -1, 3), (-3.5, 0, 1.5), (-3, 0, 1)),
     "Index": ((-9, 0, 2.5), (-4, 0, 0), (-2.5, 0, 0)),
     "Middle": ((-9.2, 0, 0.5), (-4.5, 0, 0), (-2.8, 0, 0)),
     "Ring": ((-8.8, 0, -1.5), (-4.2, 0, 0), (-2.6, 0, 0)),
     "Pinky": ((-8.2, 0, -3.5), (-3.3, 0, 0), (-2, 0, 0)),
 }
-_TIP = {"Thumb": (-2.5, 0, 0.5), "Pinky": (-1.8, 0, 0)}
+_TIP: dict[str, Offset] = {"Thumb": (-2.5, 0, 0.5), "Pinky": (-1.8, 0, 0)}
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
@@ -53,11 +55,13 @@ def skeleton() -> Hierarchy:
     for side, mirror in (("Right", np.ones(3)), ("Left", _MIRROR)):
         for name, parent, offset in _ARM:
             above = parent if parent == "Chest" else f"{side}{parent}"
-            rows.append((f"{side}{name}", above, np.array(offset) * mirror, False))
+            rows.append((f"{side}{name}", above, np.array(offset, dtype=float) * mirror, False))
         for finger, offsets in _FINGERS.items():
             above = f"{side}Hand"
             for i, offset in enumerate(offsets, start=1):
-                rows.append((f"{side}{finger}{i}", above, np.array(offset) * mirror, False))
+                rows.append(
+                    (f"{side}{finger}{i}", above, np.array(offset, dtype=float) * mirror, False)
+                )
                 above = f"{side}{finger}{i}"
             tip = np.array(_TIP.get(finger, (-2.2, 0, 0))) * mirror
             rows.append((f"{above}_end", above, tip, True))
@@ -108,7 +112,9 @@ class Body:
             s: [[index[f"{s}{f}{i}"] for i in (1, 2, 3)] for f in _FINGERS] for s in _SIDES
         }
 
-    def rotations(self, right: NDArray[np.float64], left: NDArray[np.float64]) -> NDArray:
+    def rotations(
+        self, right: NDArray[np.float64], left: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         """Return local rotation matrices (N, J, 3, 3) for arm coordinates (N, 12) each."""
         n = len(right)
         out = np.tile(np.eye(3), (n, len(self.hierarchy.joints), 1, 1))
@@ -132,7 +138,9 @@ class Body:
                     out[:, joint] = flip @ _rodrigues(bend) @ flip
         return out
 
-    def place(self, rotations: NDArray) -> tuple[NDArray, NDArray]:
+    def place(
+        self, rotations: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return world positions (N, J, 3) in cm and world rotations (N, J, 3, 3)."""
         positions = np.empty(rotations.shape[:3])
         world = np.empty_like(rotations)
@@ -146,7 +154,9 @@ class Body:
                 world[:, joint] = world[:, parent] @ rotations[:, joint]
         return positions, world
 
-    def distances(self, first: NDArray, second: NDArray) -> tuple[NDArray, NDArray]:
+    def distances(
+        self, first: NDArray[np.float64], second: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return geodesic (rad, half the angle) and Euclidean (cm) means over the moving joints.
 
         first, second: coordinates (N, 24) of both arms, right then left.

@@ -12,8 +12,9 @@ It shows whether the pipeline finds what was put in. It says nothing about peopl
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -37,8 +38,8 @@ DURATION_RANGE = (10, 50)  # frames; claims N03 and N04 of the paper, the outlie
 UTTERANCES = 14
 MOST_TRANSITIONS = 9  # in one utterance
 SIGN_FRAMES = (22, 75)
-TAG_JITTER_S = 0.022  # SD of manual tag against the right hand's boundary
-MOST_JITTER_S = 0.065
+TAG_JITTER_S = 0.03  # SD of manual tag against the right hand's boundary
+MOST_JITTER_S = 0.08
 LEFT_LAG_S = (0.025, 0.018)  # mean and SD of the left hand's boundary against the right's
 LEAST_TRUE_SIGN_S = 0.14
 LEAST_TRUE_TRANSITION_S = 0.05
@@ -46,8 +47,10 @@ PAUSE_FRAMES = (140, 200)  # between utterances, hands down and up again
 JOINT_NOISE_RAD = 0.0006  # SD per joint and frame: about half a millimetre at the wrist
 ROOT_NOISE_CM = 0.03
 SWAY_RAD = 0.005
+LEAST_DROP_RAD = 0.3  # coordinates of the left arm above rest that count as raised
 CANDIDATES = 24
 GOAL_TOLERANCE = 1e-7
+MOST_TRIES = 40  # other last postures of a sign, where no next one is at the right distance
 
 REST = np.concatenate([[0.0, -0.55, 0.15, -0.35], np.zeros(8)])
 RELAXED = np.concatenate([[0.0, -0.38, 0.10, -0.22], np.zeros(8)])
@@ -150,7 +153,8 @@ def _design(
         kinds += [str(row.type)] * n
         frames += values
     durations = np.array(frames) * FRAME_S
-    geodesic, euclidean = design_distances(durations, theta, mean_error_s, rng)
+    dropped = np.array([kind[:2] in ("10", "11") and kind[2:] == "00" for kind in kinds])
+    geodesic, euclidean = design_distances(durations, theta, mean_error_s, dropped, rng)
     return [
         Transition(kind, f, float(g), float(e * unit_m * 100))
         for kind, f, g, e in zip(kinds, frames, geodesic, euclidean, strict=True)
@@ -198,7 +202,7 @@ def _utterances(
     out = []
     for chain in chains(counts, UTTERANCES, MOST_TRANSITIONS, rng):
         tokens = [Token(str(rng.choice(glosses[kind])), kind) for kind in chain]
-        between = [pool[edge].pop() for edge in zip(chain, chain[1:], strict=False)]
+        between = [pool[edge].pop() for edge in pairwise(chain)]
         out.append((tokens, between))
     return out
 
@@ -252,12 +256,14 @@ def _true_times(tokens: list[Token], rng: np.random.Generator) -> None:
         }
 
 
-def _drawn_in_order(edges: NDArray[np.float64], gaps: NDArray[np.float64], draw: object) -> list:
+def _drawn_in_order(
+    edges: Iterable[float], gaps: NDArray[np.float64], draw: Callable[[], float]
+) -> list[float]:
     """Move each time by a draw, so that the next one still comes late enough after it."""
     out: list[float] = []
     for i, edge in enumerate(edges):
         for _ in range(100):
-            time = edge + draw()  # type: ignore[operator]
+            time = edge + draw()
             if not out or time - out[-1] >= gaps[i - 1]:
                 break
         else:
@@ -274,11 +280,26 @@ def _postures(
 ) -> None:
     """Choose each sign's first and last posture so that the transitions have their distances."""
     tokens[0].first = _first_posture(tokens[0].kind, rng)
-    for i, token in enumerate(tokens):
-        if i:
-            token.first = _reached(tokens[i - 1].last, token.kind, between[i - 1], body, rng)
-        length_s = (token.end - token.start) * FRAME_S
-        token.last = _inside(token.first + _stroke(token.kind, length_s, rng))
+    for (token, following), goal in zip(pairwise(tokens), between, strict=True):
+        for _ in range(MOST_TRIES):
+            token.last = _last_posture(token, rng)
+            reached = _reached(token.last, following.kind, goal, body, rng)
+            if reached is not None:
+                following.first = reached
+                break
+        else:
+            raise SignkinError(
+                f"no posture at {goal.geodesic_rad:.4f} rad and {goal.euclidean_cm:.3f} cm found",
+                place="simulated posture",
+                expected="distances that a body can have",
+                todo="Another seed may do.",
+            )
+    tokens[-1].last = _last_posture(tokens[-1], rng)
+
+
+def _last_posture(token: Token, rng: np.random.Generator) -> NDArray[np.float64]:
+    length_s = (token.end - token.start) * FRAME_S
+    return _inside(token.first + _stroke(token.kind, length_s, rng))
 
 
 def _first_posture(kind: str, rng: np.random.Generator) -> NDArray[np.float64]:
@@ -323,13 +344,13 @@ def _reached(
     goal: Transition,
     body: Body,
     rng: np.random.Generator,
-) -> NDArray[np.float64]:
-    """Return a posture for the next sign at the goal's two distances from `start`.
+) -> NDArray[np.float64] | None:
+    """Return a posture for the next sign at the goal's two distances from `start`, or None.
 
     Each candidate has a direction for the arms (towards a target that suits the sign) and one
     for the hands; how far to go along each is found by Newton's method, all candidates at once.
     """
-    for _ in range(20):
+    for _ in range(3):
         arms, hands = _directions(start, kind, rng)
         along = np.tile([0.35, 0.5], (CANDIDATES, 1))
         for _ in range(25):
@@ -339,16 +360,13 @@ def _reached(
             near = np.abs(error).max(axis=1) < GOAL_TOLERANCE
             fits = near & (along[:, 0] > 0.01) & (outside < 1e-12)
             if fits.any():
-                return np.asarray(reached[int(np.argmax(fits))])
+                # One-handed signs let the other hand drop as far as the distance allows.
+                dropped = np.abs(reached - start)[:, 12:].sum(axis=1) if kind == "00" else 0
+                return np.asarray(reached[int(np.argmax(np.where(fits, 1 + dropped, 0)))])
             with np.errstate(all="ignore"):
                 step = np.einsum("nij,nj->ni", _inverse(slope), error)
             along = along - np.clip(np.nan_to_num(step), -0.3, 0.3)
-    raise SignkinError(
-        f"no posture at {goal.geodesic_rad:.4f} rad and {goal.euclidean_cm:.3f} cm was found",
-        place="simulated posture",
-        expected="distances that a body can have",
-        todo="Another seed may do.",
-    )
+    return None
 
 
 def _directions(
@@ -362,7 +380,11 @@ def _directions(
         right = _target(rng)
         left = {"11": right, "10": _target(rng), "00": RELAXED, "20": start[ARM_COORDINATES:]}[kind]
         arms[k, moves] = (right - start[:ARM_COORDINATES])[ARM_MOVES]
-        arms[k, ARM_COORDINATES + moves] = (left - start[ARM_COORDINATES:])[ARM_MOVES]
+        drop = (left - start[ARM_COORDINATES:])[ARM_MOVES]
+        arms[k, ARM_COORDINATES + moves] = drop
+        if kind == "00" and np.linalg.norm(drop) > LEAST_DROP_RAD:
+            # The left hand goes down, and leaves less of the distance to the right one.
+            arms[k, moves] *= rng.uniform(0.1, 1.0)
         hands[k, shapes] = rng.normal(0, 0.5, 8)
         if kind.startswith("1"):
             mixed = hands[k, shapes] if kind == "11" else rng.normal(0, 0.5, 8)
@@ -421,7 +443,7 @@ def _coordinates(
     utterances: Sequence[Sequence[Token]], frames: int, rng: np.random.Generator
 ) -> NDArray[np.float64]:
     """Return the coordinates of both arms at every frame, (F, 24)."""
-    at = np.arange(frames) * FRAME_S
+    at = np.asarray(np.arange(frames) * FRAME_S, dtype=np.float64)
     keys: dict[str, list[tuple[float, NDArray[np.float64]]]] = {
         hand: [(-1.0, REST)] for hand in ("right", "left")
     }
@@ -442,13 +464,14 @@ def _coordinates(
             keys[hand].append((tokens[-1].true_s[hand][1] + rng.uniform(0.45, 0.6), REST))
     for hand in keys:
         keys[hand].append((frames * FRAME_S + 1.0, REST))
-    tracks = [minimum_jerk(*zip(*keys[hand], strict=True), at) for hand in ("right", "left")]
+    tracks = []
+    for hand in ("right", "left"):
+        times = [time for time, _ in keys[hand]]
+        tracks.append(minimum_jerk(times, [posture for _, posture in keys[hand]], at))
     return np.hstack(tracks)
 
 
-def _inner_keys(
-    token: Token, rng: np.random.Generator
-) -> list[tuple[float, NDArray[np.float64]]]:
+def _inner_keys(token: Token, rng: np.random.Generator) -> list[tuple[float, NDArray[np.float64]]]:
     """Return the turning points inside a sign: share of its length, posture."""
     length_s = (token.end - token.start) * FRAME_S
     inner = 0 if length_s < 0.4 else 1 if length_s < 0.62 else 2

@@ -35,7 +35,9 @@ def sums_from_print(n: int, mean: str, sd: str, grain: str) -> tuple[int, int]:
         first = ceil((sd_low / step) ** 2 * (n - 1) + base)
         last = floor((sd_high / step) ** 2 * (n - 1) + base)
         # A sum of integers and the sum of their squares are both even or both odd.
-        found += [(total, squares) for squares in range(first, last + 1) if squares % 2 == total % 2]
+        found += [
+            (total, squares) for squares in range(first, last + 1) if squares % 2 == total % 2
+        ]
     if len(found) != 1:
         raise SignkinError(
             f"n = {n}, mean {mean}, SD {sd} allow {len(found)} pairs of sum and sum of squares",

@@ -34,15 +34,19 @@ def design_distances(
     durations_s: NDArray[np.float64],
     theta: NDArray[np.float64],
     mean_error_s: float,
+    far: NDArray[np.bool_],
     rng: np.random.Generator,
     limits: DistanceRange | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return geodesic (N,) and Euclidean (N,) distances for durations (N,)."""
+    """Return geodesic (N,) and Euclidean (N,) distances for durations (N,).
+
+    far: transitions that want their Euclidean distance as large as can be.
+    """
     limits = limits or DistanceRange()
     fitted = _fitted(durations_s, theta, mean_error_s, rng, limits)
     residual = durations_s - fitted
     low, high = _euclidean_bounds(fitted, theta, limits)
-    wish = low + (high - low) * rng.uniform(0.15, 0.95, size=len(low))
+    wish = low + (high - low) * np.where(far, 1.0, rng.uniform(0.15, 0.9, size=len(low)))
     euclidean = _solve(
         wish,
         np.column_stack([low, high]),
@@ -96,7 +100,11 @@ def _fitted(
         wish,
         bounds,
         [
-            {"type": "eq", "fun": lambda f: (durations_s - f).mean(), "jac": lambda f: -np.ones(n) / n},
+            {
+                "type": "eq",
+                "fun": lambda f: (durations_s - f).mean(),
+                "jac": lambda f: -np.ones(n) / n,
+            },
             {
                 "type": "eq",
                 "fun": lambda f: ((durations_s - f) * (f - centre)).mean() / spread,

@@ -5,7 +5,9 @@ Arrays and data frames in, data frames out.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 
 import numpy as np
@@ -17,6 +19,7 @@ from signkin import decimals
 SIGN_TYPES = ("00", "10", "11", "20")
 TYPES = tuple(a + b for a, b in product(SIGN_TYPES, repeat=2))
 CHANGES = ("1H to 1H", "1H to 2H", "2H to 1H", "2H to 2H")
+Times = Sequence[Fraction]  # exact durations in seconds
 ABSENT = "/"  # what the paper prints for a type without transitions
 
 
@@ -65,7 +68,7 @@ def table2(
     return pd.DataFrame(rows).reindex(columns=columns)
 
 
-def _numbers(durations: list, suffix: str) -> dict[str, float]:
+def _numbers(durations: Times, suffix: str) -> dict[str, float]:
     n = len(durations)
     return {
         f"n{suffix}": n,
@@ -74,7 +77,7 @@ def _numbers(durations: list, suffix: str) -> dict[str, float]:
     }
 
 
-def _note(durations: list) -> str:
+def _note(durations: Times) -> str:
     if not durations:
         return "no transition of this type"
     if len(durations) == 1:
@@ -82,7 +85,7 @@ def _note(durations: list) -> str:
     return ""
 
 
-def _printed(durations: list, kept: list, paper: dict) -> dict[str, str]:
+def _printed(durations: Times, kept: Times, paper: Mapping[str, str]) -> dict[str, str]:
     without = len(kept) < len(durations)
     out = {}
     for key, printer in (("n", lambda d, _: str(len(d))), ("mean", _mean), ("sd", _sd)):
@@ -92,14 +95,14 @@ def _printed(durations: list, kept: list, paper: dict) -> dict[str, str]:
     return {f"printed_{key}": text for key, text in out.items()}
 
 
-def _mean(durations: list, printed: str) -> str:
+def _mean(durations: Times, printed: str) -> str:
     if not durations:
         return ABSENT
     value = decimals.mean(durations)
     return decimals.fixed(value, _places(float(value), printed))
 
 
-def _sd(durations: list, printed: str) -> str:
+def _sd(durations: Times, printed: str) -> str:
     if not durations:
         return ABSENT
     if len(durations) == 1:
@@ -114,7 +117,7 @@ def _places(value: float, printed: str) -> int:
     return decimals.places_for(value)
 
 
-def _joined(paper: dict, key: str) -> str:
+def _joined(paper: Mapping[str, str], key: str) -> str:
     if not paper:
         return ""
     without = paper[f"{key}_without_outlier"]
@@ -124,19 +127,16 @@ def _joined(paper: dict, key: str) -> str:
 # --- Fig. 8 ----------------------------------------------------------------------------------
 
 
+# Above this many points that may be left out, bounds are tried on a grid of as many steps.
+MOST_CUTS = 60
+
+
 @dataclass(frozen=True, eq=False)
 class Diamond:
-    """A rhombus with axis-parallel diagonals: centre, half-diagonals, and what it holds."""
+    """A box standing on its corner: its four corners by name, (x, y), and what it holds."""
 
-    centre: tuple[float, float]
-    half: tuple[float, float]
+    corners: dict[str, tuple[float, float]]
     inside: NDArray[np.bool_]
-
-    @property
-    def corners(self) -> dict[str, tuple[float, float]]:
-        """The corners by name, (x, y)."""
-        (x, y), (a, b) = self.centre, self.half
-        return {"left": (x - a, y), "top": (x, y + b), "right": (x + a, y), "bottom": (x, y - b)}
 
     @property
     def share(self) -> float:
@@ -145,17 +145,48 @@ class Diamond:
 
 
 def diamond(x: NDArray[np.float64], y: NDArray[np.float64], share: float = 0.9) -> Diamond:
-    """Return the smallest diamond of its shape that holds more than a share of the points.
+    """Return the smallest diamond that holds more than a share of the points.
 
-    The paper prints no corners (Fig. 8): here the centre is the median of both coordinates,
-    and the diagonals are as their interquartile ranges.
+    The paper prints neither corners nor a rule (Fig. 8). Here the four sides have two slopes,
+    plus and minus the interquartile range of y over that of x, and among all such boxes with
+    more than `share` of the points the one with the least area is taken.
     """
-    centre = (float(np.median(x)), float(np.median(y)))
+    n = len(x)
     scale = [float(np.subtract(*np.quantile(v, [0.75, 0.25]))) or 1.0 for v in (x, y)]
-    away = np.abs(x - centre[0]) / scale[0] + np.abs(y - centre[1]) / scale[1]
-    needed = min(len(away), int(np.floor(share * len(away))) + 1)
-    size = float(np.sort(away)[needed - 1])
-    return Diamond(centre, (size * scale[0], size * scale[1]), away <= size)
+    rising = x / scale[0] + y / scale[1]
+    falling = x / scale[0] - y / scale[1]
+    spare = n - min(n, int(np.floor(share * n)) + 1)
+    order = np.argsort(rising, kind="stable")
+    cuts = range(0, spare + 1, max(1, spare // MOST_CUTS))
+    best = (np.inf, 0.0, 0.0, 0.0, 0.0)
+    for below in cuts:
+        for above in cuts:
+            if below + above > spare:
+                break
+            kept = order[below : n - above]
+            low, high = rising[kept[0]], rising[kept[-1]]
+            across = np.sort(falling[kept])
+            width = across[n - spare - 1 :] - across[: len(across) - (n - spare) + 1]
+            first = int(np.argmin(width))
+            area = (high - low) * width[first]
+            if area < best[0]:
+                best = (area, low, high, across[first], across[first] + width[first])
+    _, r0, r1, f0, f1 = best
+
+    def corner(r: float, f: float) -> tuple[float, float]:
+        return scale[0] * (r + f) / 2, scale[1] * (r - f) / 2
+
+    corners = {
+        "left": corner(r0, f0),
+        "top": corner(r1, f0),
+        "right": corner(r1, f1),
+        "bottom": corner(r0, f1),
+    }
+    edge = 1e-12 * max(1.0, float(np.abs(rising).max()), float(np.abs(falling).max()))
+    inside = (np.abs(rising - (r0 + r1) / 2) <= (r1 - r0) / 2 + edge) & (
+        np.abs(falling - (f0 + f1) / 2) <= (f1 - f0) / 2 + edge
+    )
+    return Diamond(corners, inside)
 
 
 # --- Fig. 10 ---------------------------------------------------------------------------------
