@@ -374,10 +374,14 @@ TABLES: dict[str, Table] = {
             "results/naert2017/fig03.csv",
             "a rule of the workflow (the counterpart of Naert et al. 2017, Fig. 3)",
             (
-                _text("rule", "rule"),
+                _text("rule", "rule; `from>to:column` is an arrow that passes a column"),
                 _text("stage", "file in workflow/rules it stands in"),
                 _text("note", "what it does"),
-                Column("column", "", "longest path to the rule"),
+                Column(
+                    "column",
+                    "",
+                    "place from left to right: as far right as the rules after it allow",
+                ),
                 Column("row", "", "place among the rules of its column"),
                 _text("after", "rules whose output it takes, those behind others left out"),
             ),

@@ -16,6 +16,6 @@ with job(snakemake):
     rules = overview.layout(overview.parse_rule_graph(dot), notes)
     tables.write_table(rules, out.csv, "overview")
     with paper_style():
-        figure, ax = plt.subplots(figsize=(WIDTH_IN * 1.25, 3.4))
+        figure, ax = plt.subplots(figsize=(WIDTH_IN * 1.3, 4.4))
         plot_overview(rules, ax=ax)
         save(figure, out.svg, out.pdf)

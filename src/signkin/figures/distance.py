@@ -72,8 +72,8 @@ def plot_segmentations(pairs: pd.DataFrame, hand: str, unit: str, *, ax: Axes) -
     x1, x2 = chosen[f"manual_euclidean_{unit}"], chosen[f"refined_euclidean_{unit}"]
     y1, y2 = chosen["manual_duration_s"], chosen["refined_duration_s"]
     ends = np.stack([np.column_stack([x1, y1]), np.column_stack([x2, y2])], axis=1)
-    size = 12 if len(chosen) <= 200 else 6
-    ax.add_collection(LineCollection(list(ends), colors="0.72", lw=0.6, zorder=1))
+    size = 9 if len(chosen) <= 200 else 5
+    ax.add_collection(LineCollection(list(ends), colors="0.5", lw=0.7, zorder=1))
     ax.scatter(x1, y1, s=size, marker="D", color=RIGHT, lw=0, label="manual", zorder=2)
     ax.scatter(x2, y2, s=size + 2, marker="o", color=LEFT, lw=0, label="refined", zorder=3)
     ax.axhline(0, color="0.85", lw=0.8, zorder=0)

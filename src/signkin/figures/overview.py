@@ -16,22 +16,27 @@ STAGE_COLOURS = {
     "audit": "#f7d9dc",
     "report": "#e6e6e6",
 }
-BOX = (0.86, 0.62)
+BOX = (0.88, 0.66)
 
 
 def plot_overview(rules: pd.DataFrame, *, ax: Axes) -> Axes:
     """Draw the rules (table `overview`) from left to right, coloured by stage."""
-    place = {rule.rule: (float(rule.column), -float(rule.row)) for rule in rules.itertuples()}
+    place = {str(r.rule): (float(r.column), -float(r.row)) for r in rules.itertuples()}
     for rule in rules.itertuples():
-        x, y = place[rule.rule]
+        x, y = place[str(rule.rule)]
+        passing = ">" in str(rule.rule)
         for before in str(rule.after).split():
             x0, y0 = place[before]
             ax.add_patch(
                 FancyArrowPatch(
-                    (x0 + BOX[0] / 2, y0), (x - BOX[0] / 2, y), arrowstyle="-|>",
+                    (x0 + BOX[0] / 2, y0), (x - BOX[0] / 2, y),
+                    arrowstyle="-" if passing else "-|>",
                     mutation_scale=8, color="0.45", lw=0.9, shrinkA=0, shrinkB=0, zorder=1,
                 )
             )  # fmt: skip
+        if passing:
+            ax.plot((x - BOX[0] / 2, x + BOX[0] / 2), (y, y), color="0.45", lw=0.9, zorder=1)
+            continue
         ax.add_patch(
             FancyBboxPatch(
                 (x - BOX[0] / 2, y - BOX[1] / 2), *BOX, boxstyle="round,pad=0,rounding_size=0.06",
@@ -42,12 +47,12 @@ def plot_overview(rules: pd.DataFrame, *, ax: Axes) -> Axes:
         note = textwrap.fill(str(rule.note).rstrip("."), 19)
         lines = note.count("\n") + 1 if note else 0
         ax.text(
-            x, y + BOX[1] / 2 - 0.11, name, ha="center", va="center", fontsize=7.2,
+            x, y + BOX[1] / 2 - 0.11, name, ha="center", va="center", fontsize=6.8,
             weight="bold", zorder=3,
         )  # fmt: skip
         if lines:
             ax.text(x, y - 0.08, note, ha="center", va="center", fontsize=5.6, zorder=3)
-    stages = list(dict.fromkeys(rules.sort_values(["column", "rule"])["stage"]))
+    stages = [s for s in dict.fromkeys(rules["stage"]) if s]
     ax.legend(
         handles=[Patch(fc=STAGE_COLOURS.get(s, "white"), ec="0.35", label=s) for s in stages],
         loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(stages),

@@ -90,26 +90,18 @@ def _handles(marks: str) -> list[Line2D]:
         return Line2D([], [], color=colour, ls=ls, label=label, **extra)  # type: ignore[arg-type]
 
     right, left = HAND_COLOURS["right"], HAND_COLOURS["left"]
-    handles = [
-        line("right wrist", right),
-        line("left wrist", left, marker=".", ms=4),
-        line("sign starts (manual)", MANUAL),
-        line("sign ends (manual)", MANUAL, "--"),
-    ]
+    wrists = [line("right wrist", right), line("left wrist", left, marker=".", ms=4)]
+    tags = [line("sign starts (manual)", MANUAL), line("sign ends (manual)", MANUAL, "--")]
     if marks == "minima":
-        return [
-            *handles,
-            line("minimum, right hand", right, ":"),
-            line("minimum, left hand", left, ":"),
-        ]
-    return [
-        *handles,
-        line("start, refined: right", right),
-        line("end", right, "--"),
-        line("start, refined: left", left),
-        line("end", left, "--"),
-        line("tag stays: no minimum near", "0.3", "none", marker="x", ms=5, mew=1.4),
+        minima = [line(f"minimum, {hand} hand", HAND_COLOURS[hand], ":") for hand in HAND_COLOURS]
+        return [*wrists, *tags, *minima]
+    refined = [
+        line(f"{edge}, refined ({hand})", HAND_COLOURS[hand], dashes)
+        for hand in HAND_COLOURS
+        for edge, dashes in (("starts", "-"), ("ends", "--"))
     ]
+    stays = line("stays: no minimum near", "0.3", "none", marker="x", ms=5, mew=1.4)
+    return [*wrists, stays, *tags, *refined]
 
 
 def plot_recording(frames: pd.DataFrame, minima: pd.DataFrame, unit: str, *, ax: Axes) -> Axes:

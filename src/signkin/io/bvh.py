@@ -159,16 +159,14 @@ def _parse_frames(
 
 
 def _numbers(words: list[str], count: int, number: int) -> list[float]:
-    try:
-        values = [float(word) for word in words]
-    except ValueError:
-        values = []
+    values = []
+    for word in words:
+        try:
+            values.append(float(word))
+        except ValueError:
+            raise _broken(number, f"found {word!r}", "a number") from None
     if len(values) != count:
-        raise _broken(
-            number,
-            f"{len(words)} values, {len(values)} of them numbers",
-            f"{count} numbers; the file may be truncated",
-        )
+        raise _broken(number, f"{len(values)} numbers", f"{count}; the file may be truncated")
     return values
 
 

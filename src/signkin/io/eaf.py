@@ -321,30 +321,35 @@ class _Layout:
 def _layout(content: bytes) -> _Layout:
     layout = _Layout()
     parser = xml.parsers.expat.ParserCreate()
-    first_after_tiers = -1
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        nonlocal first_after_tiers
         if tag == "TIME_SLOT" and attributes.get("TIME_VALUE"):
             layout.slots.append((int(attributes["TIME_VALUE"]), parser.CurrentByteIndex))
         elif tag == "TIER":
             layout.tier_names.append(attributes["TIER_ID"])
-        elif tag == "LINGUISTIC_TYPE" and first_after_tiers < 0:
-            first_after_tiers = parser.CurrentByteIndex
 
     def end(tag: str) -> None:
-        # For `<A/>` the end event stands at the element's start, for `</A>` at the closing tag.
-        place = content.index(b">", parser.CurrentByteIndex) + 1
+        # The parser stands at `</A>`, or right behind `<A/>`.
+        place = parser.CurrentByteIndex
+        closing = content.startswith(f"</{tag}".encode(), place)
+        after = content.index(b">", place) + 1 if closing else place
         if tag == "TIME_ORDER":
-            closing = parser.CurrentByteIndex
-            layout.slots_end = closing if content[closing : closing + 2] == b"</" else -1
-            if layout.tier_place < 0:
-                layout.tier_place = place
+            layout.slots_end = place if closing else -1
+            layout.tier_place = after
         elif tag == "TIER":
-            layout.tier_place = place
+            layout.tier_place = after
         elif tag == "LINGUISTIC_TYPE":
-            layout.type_place = place
+            layout.type_place = after
 
+    def declaration(version: str, encoding: str | None, standalone: int) -> None:
+        if encoding is not None and encoding.lower() not in ("utf-8", "us-ascii"):
+            raise SignkinError(
+                f"the file is written in {encoding}",
+                expected="UTF-8, as ELAN writes it",
+                todo="Open and save it in ELAN.",
+            )
+
+    parser.XmlDeclHandler = declaration
     parser.StartElementHandler = start
     parser.EndElementHandler = end
     try:

@@ -60,48 +60,54 @@ def rule_notes(rule_files: Sequence[Path]) -> dict[str, tuple[str, str]]:
 
 
 def layout(edges: Sequence[tuple[str, str]], notes: dict[str, tuple[str, str]]) -> pd.DataFrame:
-    """Return a row a rule: rule, stage (its file), note, column, row.
+    """Return a row a rule: rule, stage (its file), note, column, row, the rules right before.
 
-    The column is the length of the longest path to the rule; rows follow the stages and the
-    mean row of the rules before.
+    Each rule stands as far right as the rules after it allow; rows follow the mean row of what
+    is before. An arrow over several columns takes a place of its own in each column between
+    (a row named `from>to`, without a stage), so that it runs beside the boxes.
     """
     rules = sorted({rule for edge in edges for rule in edge})
     before = {rule: sorted(a for a, b in edges if b == rule) for rule in rules}
-    column: dict[str, int] = {}
+    after = {rule: sorted(b for a, b in edges if a == rule) for rule in rules}
+    to_go: dict[str, int] = {}
 
-    def depth(rule: str) -> int:
-        if rule not in column:
-            column[rule] = 1 + max((depth(a) for a in before[rule]), default=-1)
-        return column[rule]
+    def ahead(rule: str) -> int:
+        if rule not in to_go:
+            to_go[rule] = 1 + max((ahead(b) for b in after[rule]), default=-1)
+        return to_go[rule]
 
+    longest = max((ahead(rule) for rule in rules), default=0)
+    column = {rule: longest - ahead(rule) for rule in rules}
+    links: dict[str, list[str]] = {}
     for rule in rules:
-        depth(rule)
-    stages = list(dict.fromkeys(stage for stage, _ in notes.values()))
+        links[rule] = []
+        for source in _direct(rule, before):
+            link = source
+            for between in range(column[source] + 1, column[rule]):
+                passing = f"{source}>{rule}:{between}"
+                column[passing], links[passing] = between, [link]
+                link = passing
+            links[rule].append(link)
     row: dict[str, float] = {}
-    for place in range(max(column.values(), default=-1) + 1):
-        here = [rule for rule in rules if column[rule] == place]
-
-        def key(rule: str) -> tuple[float, int, str]:
-            above = [row[a] for a in before[rule]]
-            stage = notes.get(rule, ("", ""))[0]
-            return (
-                sum(above) / len(above) if above else 0.0,
-                stages.index(stage) if stage in stages else len(stages),
-                rule,
-            )
-
-        for i, rule in enumerate(sorted(here, key=key)):
-            row[rule] = i - (len(here) - 1) / 2
+    for place in range(longest + 1):
+        here = [name for name, at in column.items() if at == place]
+        # What comes from nowhere stands last: it is no part of the chain.
+        height = {
+            n: sum(row[a] for a in links[n]) / len(links[n]) if links[n] else len(column)
+            for n in here
+        }
+        for i, name in enumerate(sorted(here, key=lambda n: (height[n], ">" in n, n))):
+            row[name] = i - (len(here) - 1) / 2
     rows = [
         {
-            "rule": rule,
-            "stage": notes.get(rule, ("", ""))[0],
-            "note": notes.get(rule, ("", ""))[1],
-            "column": column[rule],
-            "row": row[rule],
-            "after": " ".join(_direct(rule, before)),
+            "rule": name,
+            "stage": notes.get(name, ("", ""))[0],
+            "note": notes.get(name, ("", ""))[1],
+            "column": column[name],
+            "row": row[name],
+            "after": " ".join(links[name]),
         }
-        for rule in rules
+        for name in sorted(column, key=lambda n: (column[n], row[n]))
     ]
     return pd.DataFrame(rows, columns=tables.TABLES["overview"].names())
 

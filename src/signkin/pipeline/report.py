@@ -308,7 +308,7 @@ def _refinement(sources: Sources, name: str) -> Iterator[TableView | FigureView]
         title="Tags and speed minima against chance",
         caption="Share of manual tags (coloured) with a speed minimum of the hand at most so far "
         "away, against random tags (grey band: 95 % of the sets). Where the coloured line runs in "
-        "the band, tags are no nearer to minima than chance has it.",
+        "the band, tags are no nearer to minima than chance has it; below the band, farther.",
         svg=base.with_suffix(".svg"),
         files=[base.with_suffix(s) for s in (".svg", ".pdf")],
     )

@@ -384,7 +384,7 @@ def _directions(
         arms[k, ARM_COORDINATES + moves] = drop
         if kind == "00" and np.linalg.norm(drop) > LEAST_DROP_RAD:
             # The left hand goes down, and leaves less of the distance to the right one.
-            arms[k, moves] *= rng.uniform(0.1, 1.0)
+            arms[k, moves] *= rng.uniform(0.3, 1.0)
         hands[k, shapes] = rng.normal(0, 0.5, 8)
         if kind.startswith("1"):
             mixed = hands[k, shapes] if kind == "11" else rng.normal(0, 0.5, 8)

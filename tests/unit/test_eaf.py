@@ -1,0 +1,227 @@
+import xml.etree.ElementTree as ET
+
+import pytest
+from pympi.Elan import Eaf
+
+from signkin import Interval, SignkinError, read_annotation
+from signkin.io.eaf import NewTier, insert_tiers, write_eaf
+
+HEAD = (
+    '<?xml version="1.0" encoding="UTF-8"?>\n<ANNOTATION_DOCUMENT AUTHOR="a" DATE="2020" '
+    'FORMAT="3.0" VERSION="3.0" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" '
+    'xsi:noNamespaceSchemaLocation="http://www.mpi.nl/tools/elan/EAFv3.0.xsd">\n'
+)
+TYPES = (
+    '<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="top" TIME_ALIGNABLE="true"/>\n'
+    '<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="child" TIME_ALIGNABLE="false" '
+    'CONSTRAINTS="Symbolic_Association"/>\n</ANNOTATION_DOCUMENT>\n'
+)
+
+
+def slot(name, ms):
+    value = "" if ms is None else f' TIME_VALUE="{ms}"'
+    return f'<TIME_SLOT TIME_SLOT_ID="{name}"{value}/>\n'
+
+
+def aligned(key, first, second, value):
+    return (
+        f'<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="{key}" TIME_SLOT_REF1="{first}" '
+        f'TIME_SLOT_REF2="{second}"><ANNOTATION_VALUE>{value}</ANNOTATION_VALUE>'
+        "</ALIGNABLE_ANNOTATION></ANNOTATION>\n"
+    )
+
+
+def referring(key, parent, value, previous=None):
+    link = f' PREVIOUS_ANNOTATION="{previous}"' if previous else ""
+    return (
+        f'<ANNOTATION><REF_ANNOTATION ANNOTATION_ID="{key}" ANNOTATION_REF="{parent}"{link}>'
+        f"<ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>\n"
+    )
+
+
+def tier(name, body, parent=None, kind="top"):
+    of = f' PARENT_REF="{parent}"' if parent else ""
+    return f'<TIER TIER_ID="{name}" LINGUISTIC_TYPE_REF="{kind}"{of}>\n{body}</TIER>\n'
+
+
+def eaf(tmp_path, slots, tiers, media='<MEDIA_DESCRIPTOR MEDIA_URL="v.mp4" MIME_TYPE="video/mp4"/>'):
+    header = f'<HEADER MEDIA_FILE="" TIME_UNITS="milliseconds">{media}</HEADER>\n'
+    order = "".join(slot(name, ms) for name, ms in slots.items())
+    path = tmp_path / "x.eaf"
+    path.write_text(f"{HEAD}{header}<TIME_ORDER>\n{order}</TIME_ORDER>\n{tiers}{TYPES}")
+    return path
+
+
+@pytest.fixture
+def nested(tmp_path):
+    slots = {"ts1": 100, "ts2": 400, "ts3": 700, "ts4": 1000}
+    tiers = (
+        tier("Sign", aligned("a1", "ts1", "ts2", "A") + aligned("a2", "ts3", "ts4", "B"))
+        + tier("English", referring("a3", "a1", "ONE") + referring("a4", "a2", "TWO"), "Sign", "child")
+        + tier(
+            "Part",
+            referring("a7", "a2", "last", "a6")
+            + referring("a5", "a2", "first")
+            + referring("a6", "a2", "middle", "a5"),
+            "Sign",
+            "child",
+        )
+    )
+    return eaf(tmp_path, slots, tiers)
+
+
+def spans(annotation, name):
+    return [(i.label, i.start_s, i.end_s) for i in annotation.tier(name)]
+
+
+def test_a_symbolic_child_has_its_parents_times(nested):
+    a = read_annotation(nested, tiers=("English", "Sign"))
+    assert spans(a, "English") == [("ONE", 0.1, 0.4), ("TWO", 0.7, 1.0)]
+    assert spans(a, "Sign") == [("A", 0.1, 0.4), ("B", 0.7, 1.0)]
+
+
+def test_children_that_subdivide_a_parent_share_it_in_chain_order(nested):
+    a = read_annotation(nested, tiers=("Part",))
+    assert spans(a, "Part") == [
+        ("first", 0.7, pytest.approx(0.8)),
+        ("middle", pytest.approx(0.8), pytest.approx(0.9)),
+        ("last", pytest.approx(0.9), 1.0),
+    ]
+
+
+def test_unknown_and_empty_tiers_are_refused(nested, tmp_path):
+    with pytest.raises(SignkinError, match=r"no tier 'sign'; expected Sign, English, Part"):
+        read_annotation(nested, tiers=("sign",))
+    path = eaf(tmp_path, {"ts1": 0, "ts2": 10}, tier("Empty", "") + tier("S", ""))
+    with pytest.raises(SignkinError, match="tier 'Empty': the tier is empty"):
+        read_annotation(path, tiers=("Empty",))
+
+
+def test_open_times_are_refused_or_spread_evenly(tmp_path):
+    slots = {"ts1": 0, "ts2": None, "ts3": None, "ts4": 900}
+    body = aligned("a1", "ts1", "ts2", "A") + aligned("a2", "ts2", "ts3", "B")
+    path = eaf(tmp_path, slots, tier("S", body + aligned("a3", "ts3", "ts4", "C")))
+    with pytest.raises(SignkinError, match=r"2 times are left open .*ts2.*unaligned: interpolate"):
+        read_annotation(path)
+    a = read_annotation(path, unaligned="interpolate")
+    assert spans(a, "S") == [("A", 0, 0.3), ("B", 0.3, 0.6), ("C", 0.6, 0.9)]
+    assert a.interpolated == 2
+    with pytest.raises(SignkinError, match="unaligned is 'guess'"):
+        read_annotation(path, unaligned="guess")
+
+
+def test_an_open_time_without_neighbours_is_refused(tmp_path):
+    path = eaf(tmp_path, {"ts1": 0, "ts2": None}, tier("S", aligned("a1", "ts1", "ts2", "A")))
+    with pytest.raises(SignkinError, match="no aligned time stands on both sides"):
+        read_annotation(path, unaligned="interpolate")
+
+
+def media(*origins):
+    return "".join(
+        f'<MEDIA_DESCRIPTOR MEDIA_URL="dir/v{i}.mp4" MIME_TYPE="video/mp4" TIME_ORIGIN="{ms}"/>'
+        for i, ms in enumerate(origins)
+    )
+
+
+def test_time_origin_is_added_and_reported(tmp_path):
+    body = tier("S", aligned("a1", "ts1", "ts2", "A"))
+    path = eaf(tmp_path, {"ts1": 100, "ts2": 400}, body, media(1200))
+    a = read_annotation(path)
+    assert spans(a, "S") == [("A", 1.3, 1.6)]
+    assert a.clock_offset_s == 1.2
+
+
+def test_media_that_start_apart_want_a_choice(tmp_path):
+    body = tier("S", aligned("a1", "ts1", "ts2", "A"))
+    path = eaf(tmp_path, {"ts1": 100, "ts2": 400}, body, media(0, 500))
+    with pytest.raises(SignkinError, match=r"start at different times.*clock_media"):
+        read_annotation(path)
+    assert read_annotation(path, clock_media="v1.mp4").clock_offset_s == 0.5
+    with pytest.raises(SignkinError, match="no medium 'v9.mp4'; expected v0.mp4, v1.mp4"):
+        read_annotation(path, clock_media="v9.mp4")
+
+
+def test_a_file_that_is_no_eaf_is_refused(tmp_path):
+    path = tmp_path / "x.eaf"
+    path.write_text("<A></B>")
+    with pytest.raises(SignkinError, match="not readable as an ELAN file"):
+        read_annotation(path)
+
+
+NEW = [
+    NewTier("signkin refined right", (Interval(0.11, 0.43, "A & <B>", "r"),)),
+    NewTier("signkin refined left", (Interval(0.12, 0.4, "A", "l"), Interval(0.7, 1.1, "B", "l"))),
+]
+
+
+def test_inserting_leaves_every_other_byte(nested):
+    before = nested.read_bytes()
+    after = insert_tiers(before, NEW)
+    place, kept = 0, bytearray()
+    for byte in before:  # the old bytes stand in the new file in their order
+        found = after.find(bytes([byte]), place)
+        assert found >= 0
+        kept.append(after[found])
+        place = found + 1
+    assert bytes(kept) == before
+    nested.write_bytes(after)
+    a = read_annotation(nested, tiers=("Sign", "English", "Part"))
+    assert spans(a, "Sign") == [("A", 0.1, 0.4), ("B", 0.7, 1.0)]
+
+
+def test_inserted_tiers_are_there_in_order_and_well_formed(nested):
+    nested.write_bytes(insert_tiers(nested.read_bytes(), NEW))
+    a = read_annotation(nested)
+    assert spans(a, "signkin refined right") == [("A & <B>", 0.11, 0.43)]
+    assert spans(a, "signkin refined left") == [("A", 0.12, 0.4), ("B", 0.7, 1.1)]
+    tree = ET.parse(nested).getroot()
+    values = [int(s.get("TIME_VALUE")) for s in tree.iter("TIME_SLOT")]
+    assert values == sorted(values)
+    order = [child.tag for child in tree]
+    rank = {"HEADER": 0, "TIME_ORDER": 1, "TIER": 2, "LINGUISTIC_TYPE": 3, "CONSTRAINT": 4}
+    assert [rank[tag] for tag in order] == sorted(rank[tag] for tag in order)
+    ids = [e.get(k) for e in tree.iter() for k in ("ANNOTATION_ID", "TIME_SLOT_ID") if e.get(k)]
+    assert len(ids) == len(set(ids))
+    types = {t.get("LINGUISTIC_TYPE_ID") for t in tree.iter("LINGUISTIC_TYPE")}
+    assert {t.get("LINGUISTIC_TYPE_REF") for t in tree.iter("TIER")} <= types
+    assert "signkin refined left" in Eaf(str(nested)).get_tier_names()
+
+
+def test_a_second_insertion_changes_no_byte(nested):
+    once = insert_tiers(nested.read_bytes(), NEW)
+    assert insert_tiers(once, NEW) == once
+
+
+def test_the_clock_offset_is_taken_off_again(nested):
+    nested.write_bytes(insert_tiers(nested.read_bytes(), NEW[:1], clock_offset_s=0.1))
+    assert spans(read_annotation(nested), "signkin refined right") == [("A & <B>", 0.01, 0.33)]
+
+
+def test_a_tier_of_that_name_is_not_overwritten(nested):
+    with pytest.raises(SignkinError, match="the file has a tier 'Sign' already"):
+        insert_tiers(nested.read_bytes(), [NewTier("Sign", ())])
+
+
+def test_written_files_are_the_same_bytes_and_read_back(tmp_path):
+    tiers = [
+        ("utterance", None, [Interval(0.1, 2, "u", "utterance")]),
+        ("sign", "utterance", [Interval(0.1, 0.5, "A", "sign"), Interval(1, 2, "B", "sign")]),
+    ]
+    about = {"author": "t", "date": "2017-07-09T00:00:00+00:00", "media_url": "x.bvh"}
+    for name in ("a.eaf", "b.eaf"):
+        write_eaf(tmp_path / name, tiers=tiers, **about)
+    assert (tmp_path / "a.eaf").read_bytes() == (tmp_path / "b.eaf").read_bytes()
+    a = read_annotation(tmp_path / "a.eaf")
+    assert spans(a, "sign") == [("A", 0.1, 0.5), ("B", 1, 2)]
+
+
+def test_an_encoding_that_is_not_utf8_is_refused(nested):
+    content = nested.read_bytes().replace(b"UTF-8", b"ISO-8859-1")
+    with pytest.raises(SignkinError, match="the file is written in ISO-8859-1"):
+        insert_tiers(content, NEW)
+
+
+def test_self_closed_elements_right_before_a_closing_tag(nested):
+    content = nested.read_bytes().replace(b"/>\n</ANNOTATION_DOCUMENT>", b"/></ANNOTATION_DOCUMENT>")
+    nested.write_bytes(insert_tiers(content, NEW))
+    assert len(read_annotation(nested).tiers) == 5
