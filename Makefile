@@ -12,16 +12,11 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-# One thread a job: sums in another order would change last digits.
-export OMP_NUM_THREADS := 1
-export OPENBLAS_NUM_THREADS := 1
-export MPLBACKEND := Agg
-
 .PHONY: all test lint unit lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
-	$(BIN)/snakemake --profile profiles/default $(ARGS)
+	@$(BIN)/signkin run $(ARGS)
 
 $(VENV)/ready: requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(0 if v >= (3, 11) else \

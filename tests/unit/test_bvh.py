@@ -149,7 +149,7 @@ def test_unit_rate_and_joints_must_be_told_or_agree(tmp_path):
         read(tmp_path / "none.bvh")
     with pytest.raises(SignkinError, match="expected two different axes"):
         read_recording(path, unit="cm", up="y", right="-y")
-    with pytest.raises(SignkinError, match="the suffix '.xyz' tells no motion format"):
+    with pytest.raises(SignkinError, match=r"the suffix '.xyz' tells no motion format"):
         read_recording(tmp_path / "a.xyz")
 
 

@@ -44,7 +44,9 @@ def tier(name, body, parent=None, kind="top"):
     return f'<TIER TIER_ID="{name}" LINGUISTIC_TYPE_REF="{kind}"{of}>\n{body}</TIER>\n'
 
 
-def eaf(tmp_path, slots, tiers, media='<MEDIA_DESCRIPTOR MEDIA_URL="v.mp4" MIME_TYPE="video/mp4"/>'):
+def eaf(
+    tmp_path, slots, tiers, media='<MEDIA_DESCRIPTOR MEDIA_URL="v.mp4" MIME_TYPE="video/mp4"/>'
+):
     header = f'<HEADER MEDIA_FILE="" TIME_UNITS="milliseconds">{media}</HEADER>\n'
     order = "".join(slot(name, ms) for name, ms in slots.items())
     path = tmp_path / "x.eaf"
@@ -57,7 +59,9 @@ def nested(tmp_path):
     slots = {"ts1": 100, "ts2": 400, "ts3": 700, "ts4": 1000}
     tiers = (
         tier("Sign", aligned("a1", "ts1", "ts2", "A") + aligned("a2", "ts3", "ts4", "B"))
-        + tier("English", referring("a3", "a1", "ONE") + referring("a4", "a2", "TWO"), "Sign", "child")
+        + tier(
+            "English", referring("a3", "a1", "ONE") + referring("a4", "a2", "TWO"), "Sign", "child"
+        )
         + tier(
             "Part",
             referring("a7", "a2", "last", "a6")
@@ -137,7 +141,7 @@ def test_media_that_start_apart_want_a_choice(tmp_path):
     with pytest.raises(SignkinError, match=r"start at different times.*clock_media"):
         read_annotation(path)
     assert read_annotation(path, clock_media="v1.mp4").clock_offset_s == 0.5
-    with pytest.raises(SignkinError, match="no medium 'v9.mp4'; expected v0.mp4, v1.mp4"):
+    with pytest.raises(SignkinError, match=r"no medium 'v9.mp4'; expected v0.mp4, v1.mp4"):
         read_annotation(path, clock_media="v9.mp4")
 
 
@@ -222,6 +226,8 @@ def test_an_encoding_that_is_not_utf8_is_refused(nested):
 
 
 def test_self_closed_elements_right_before_a_closing_tag(nested):
-    content = nested.read_bytes().replace(b"/>\n</ANNOTATION_DOCUMENT>", b"/></ANNOTATION_DOCUMENT>")
+    content = nested.read_bytes().replace(
+        b"/>\n</ANNOTATION_DOCUMENT>", b"/></ANNOTATION_DOCUMENT>"
+    )
     nested.write_bytes(insert_tiers(content, NEW))
     assert len(read_annotation(nested).tiers) == 5

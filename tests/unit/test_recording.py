@@ -69,7 +69,9 @@ def interval(start, end, label="A", tier="sign"):
 
 
 def test_intervals_are_put_in_order_and_found_by_tier():
-    a = Annotation(name="x", intervals=(interval(2, 3, "B"), interval(0, 1), interval(0, 3, "U", "u")))
+    a = Annotation(
+        name="x", intervals=(interval(2, 3, "B"), interval(0, 1), interval(0, 3, "U", "u"))
+    )
     assert [i.label for i in a.tier("sign")] == ["A", "B"]
     assert a.tiers == ("sign", "u")
     assert a.times_s("sign").tolist() == [[0, 1], [2, 3]]

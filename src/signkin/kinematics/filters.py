@@ -55,8 +55,9 @@ def lowpass(
             if taps is not None:
                 out[first:end, column] = _centred(piece, taps)
             else:
-                # The usual padding of sosfiltfilt, shortened for pieces that are shorter.
-                pad = min(3 * (2 * len(sos) + 1), len(piece) - 1)
+                # Long enough for the filter to settle (the usual padding is too short for low
+                # cut-offs); shorter for pieces that are.
+                pad = min(int(np.ceil(3 * rate_hz / cutoff_hz)), len(piece) - 1)
                 out[first:end, column] = sosfiltfilt(sos, piece, padlen=pad)
     return out.reshape(np.shape(x))
 

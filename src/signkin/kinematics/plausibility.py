@@ -40,7 +40,8 @@ LIMITS = {
 }
 SHOULDER_WIDTH_M = 0.36
 TYPICAL_WRIST_SPEED = 1.5  # m/s, 99th percentile of ordinary signing
-SPEED_CUTOFF_HZ = 6.0
+# Share of the rate, not Hz: a low-pass in Hz would take the speed off that a wrong rate adds.
+SPEED_CUTOFF = 0.12
 
 
 @dataclass(frozen=True)
@@ -122,18 +123,18 @@ def _speed_finding(recording: Recording, hand: str, ruler: float | None) -> Find
     joint = f"{hand}_wrist"
     if ruler is None or joint not in recording.joints:
         return _untestable(name, limit, recording, (joint,))
-    cutoff = min(SPEED_CUTOFF_HZ, 0.45 * recording.rate_hz)
-    smooth = lowpass(recording.track(joint), recording.rate_hz, cutoff)
-    moving = speed(smooth, recording.rate_hz)
+    rate = recording.rate_hz
+    smooth = lowpass(recording.track(joint), rate, SPEED_CUTOFF * rate)
+    moving = speed(smooth, rate)
     if np.isnan(moving).all():
         return _untestable(name, limit, recording, (joint,))
     fastest = float(np.nanpercentile(moving, 99)) * ruler
     note = ""
     if fastest > limit.high:
-        rate = recording.rate_hz * TYPICAL_WRIST_SPEED / fastest
+        likely = rate * TYPICAL_WRIST_SPEED / fastest
         note = (
-            f"at {recording.rate_hz:g} Hz no hand moves so fast; ordinary signing "
-            f"({TYPICAL_WRIST_SPEED:g} m/s) would mean about {rate:.0f} Hz, or another unit"
+            f"at {rate:g} Hz no hand moves so fast; ordinary signing "
+            f"({TYPICAL_WRIST_SPEED:g} m/s) would mean about {likely:.0f} Hz, or another unit"
         )
     elif fastest < limit.low:
         note = "this hand hardly moves: a hand that rests, or a wrong rate or unit"

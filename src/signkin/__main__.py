@@ -1,0 +1,51 @@
+"""The command line: `signkin run` runs the workflow of the folder it is called in."""
+
+from __future__ import annotations
+
+import argparse
+import fcntl
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command; returns the exit status."""
+    parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("run", help="run the workflow; further arguments go to snakemake")
+    _, for_snakemake = parser.parse_known_args(arguments)
+    return run_workflow(for_snakemake)
+
+
+def run_workflow(extra: list[str], folder: Path | None = None) -> int:
+    """Run Snakemake in a folder (its config.yaml, its results), one run at a time.
+
+    Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
+    taken here is the kernel's: it goes with the process, so a killed run can simply go on.
+    """
+    folder = folder or Path.cwd()
+    state = folder / ".snakemake"
+    state.mkdir(exist_ok=True)
+    with (state / "signkin.lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
+            return 1
+        command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
+        command += ["--profile", str(ROOT / "profiles" / "default"), "--nolock", *extra]
+        # One thread a job: sums in another order would change last digits.
+        threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
+        done = subprocess.run(command, cwd=folder, env={**os.environ, **threads}, check=False)
+    page = folder / "results" / "report" / "index.html"
+    if done.returncode == 0 and page.exists():
+        print(f"The report: {page}")
+    return done.returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,102 @@
+"""Runs of the workflow in folders of their own, and a corpus small enough to spoil."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: where, its exit status, what it printed."""
+
+    folder: Path
+    status: int
+    text: str
+
+    @property
+    def results(self) -> Path:
+        return self.folder / "results"
+
+
+def command(*extra: str) -> list[str]:
+    return [sys.executable, "-m", "signkin", "run", *extra]
+
+
+def environment(data: Path | None) -> dict[str, str]:
+    env = {k: v for k, v in os.environ.items() if k != "SIGNKIN_DATA"}
+    if data is not None:
+        env["SIGNKIN_DATA"] = str(data)
+    return env
+
+
+def prepare(folder: Path, **changes: object) -> Path:
+    """Write config.yaml of a run: the shipped one with changes (`corpora=[...]`)."""
+    config = yaml.safe_load((ROOT / "config.yaml").read_text())
+    config.update(changes)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "config.yaml").write_text(yaml.safe_dump(config))
+    return folder
+
+
+def run(folder: Path, *extra: str, data: Path | None = None) -> Run:
+    done = subprocess.run(
+        command(*extra), cwd=folder, env=environment(data), text=True, timeout=600,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+    )  # fmt: skip
+    return Run(folder, done.returncode, done.stdout)
+
+
+def checked(done: Run) -> Run:
+    assert done.status == 0, done.text
+    return done
+
+
+# --- a corpus small enough to spoil ----------------------------------------------------------
+
+JOINTS = ("shoulder", "elbow", "wrist")
+RATE = 50
+
+
+def mini_motion(seconds: float, seed: int) -> str:
+    """Return a wide CSV of two arms whose wrists stop at tags and move between them."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(int(seconds * RATE)) / RATE
+    header = [f"{s}_{j}_{a}" for s in ("right", "left") for j in JOINTS for a in "xyz"]
+    columns = []
+    for side in (1, -1):
+        shoulder = np.array([0.18 * side, 0.0, 1.4])
+        elbow = shoulder + np.array([0.05 * side, 0.05, -0.28])
+        beat = 0.12 * np.cos(2 * np.pi * t) + 0.03 * np.cos(5 * t + side)
+        direction = np.column_stack([-0.1 * side + beat * side, 0.2 + 0 * t, 0.05 + beat])
+        direction /= np.linalg.norm(direction, axis=1)[:, None]
+        for points in (shoulder + 0 * direction, elbow + 0 * direction, elbow + 0.25 * direction):
+            columns.append(points + rng.normal(0, 0.0003, points.shape))
+    rows = np.hstack(columns)
+    return (
+        "\n".join([",".join(header), *(",".join(f"{v:.5f}" for v in row) for row in rows)]) + "\n"
+    )
+
+
+MINI = {
+    "title": "Mini", "language": "none", "licence": "none", "citation": "none", "noise_sd": 0.001,
+    "data_folder": "mini",
+    "motion": {
+        "format": "csv", "unit": "m", "rate_hz": RATE, "orientations": "limb_frames",
+        "joints": {
+            f"{s}_{j}": [f"{s}_{j}_{a}" for a in "xyz"] for s in ("right", "left") for j in JOINTS
+        },
+    },
+    "annotation": {
+        "format": "csv", "sign_tier": "sign", "utterance_gap_s": 1.0,
+        "options": {"start_column": "start", "end_column": "end", "label_column": "gloss"},
+    },
+}  # fmt: skip

@@ -1,0 +1,195 @@
+import hashlib
+import shutil
+
+import pytest
+import yaml
+
+from signkin import SignkinError
+from signkin.corpus import (
+    check_checksum,
+    check_files,
+    check_schema,
+    data_folder,
+    load_corpora,
+    load_corpus,
+)
+from signkin.io import annotation_formats, motion_formats
+
+SETTINGS = {
+    "title": "t", "language": "l", "licence": "none", "citation": "c", "noise_sd": 0.001,
+    "motion": {
+        "format": "csv", "unit": "m", "rate_hz": 50,
+        "joints": {"right_wrist": ["a", "b"], "left_wrist": ["c", "d"]},
+    },
+    "annotation": {"format": "csv", "sign_tier": "sign"},
+}  # fmt: skip
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "mine").mkdir()
+    write(tmp_path / "mine")
+    return tmp_path / "mine"
+
+
+def write(folder, settings=None, recordings=None, signs=None):
+    (folder / "corpus.yaml").write_text(yaml.safe_dump(settings or SETTINGS))
+    rows = recordings or "recording,signer,motion,annotation\nr1,s1,m.csv,a.csv\n"
+    (folder / "recordings.csv").write_text(rows)
+    (folder / "signs.csv").write_text(signs or "gloss,hands,symmetric\nCAKE,1,1\nIX,0,0\n")
+
+
+def changed(**changes):
+    settings = yaml.safe_load(yaml.safe_dump(SETTINGS))
+    for path, value in changes.items():
+        *parents, key = path.split("__")
+        place = settings
+        for parent in parents:
+            place = place[parent]
+        if value is None:
+            del place[key]
+        else:
+            place[key] = value
+    return settings
+
+
+def test_a_corpus_as_it_should_be(folder):
+    corpus = load_corpus(folder)
+    assert corpus.lexicon == {"CAKE": "11", "IX": "00"}
+    assert corpus.entries[0].line == 2
+    assert corpus.files() == ["m.csv", "a.csv"]
+    assert corpus.tagged
+    assert corpus.unit == "m"
+    assert load_corpora(folder.parent).keys() == {"mine"}
+
+
+def test_the_shipped_corpora_are_right(root):
+    corpora = load_corpora(root / "corpora")
+    assert set(corpora) >= {"lsf-sim", "dgs-1984189", "boston104", "libras"}
+    assert len(corpora["boston104"].entries) == 201
+    assert corpora["lsf-sim"].simulator == "lsf-sim"
+
+
+def test_formats_of_the_schema_are_those_that_can_be_read(root):
+    schema = yaml.safe_load((root / "workflow/schemas/corpus.schema.yaml").read_text())
+    properties = schema["properties"]
+    assert set(properties["motion"]["properties"]["format"]["enum"]) == set(motion_formats())
+    formats = properties["annotation"]["properties"]["format"]["enum"]
+    assert set(formats) == set(annotation_formats())
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        (
+            changed(motion__unit="inch"),
+            r"corpus.yaml, key motion.unit: 'inch' .*expected m, cm, mm",
+        ),
+        (changed(noise_sd=None), r"corpus.yaml: 'noise_sd' is a required property"),
+        (changed(motion__rate_hz=0), r"key motion.rate_hz: 0 is less than or equal .*capture rate"),
+        (changed(motion__rates=3), r"key motion: Additional properties .*'rates' was unexpected"),
+        (
+            changed(motion__joints={"right_wrist": "a", "left_hand_wrist": "b"}),
+            r"the joint 'left_hand_wrist' is not in the vocabulary; expected one of pelvis",
+        ),
+        (
+            changed(motion__joints={"right_wrist": "a", "nose": "b"}),
+            r"no joint left_wrist; expected both wrists",
+        ),
+        (
+            changed(annotation__utterance_tier="u", annotation__utterance_gap_s=1),
+            r"key annotation",
+        ),
+    ],
+)
+def test_a_wrong_corpus_yaml_names_the_key(folder, settings, told):
+    write(folder, settings)
+    with pytest.raises(SignkinError, match=told):
+        load_corpus(folder)
+
+
+def test_yaml_that_is_none_names_the_line(folder):
+    (folder / "corpus.yaml").write_text("title: x\nlanguage: [a\n")
+    with pytest.raises(SignkinError, match=r"corpus.yaml, line 3"):
+        load_corpus(folder)
+    (folder / "corpus.yaml").unlink()
+    with pytest.raises(SignkinError, match="there is no such file"):
+        load_corpus(folder)
+
+
+HEAD = "recording,signer,motion,annotation\n"
+
+
+@pytest.mark.parametrize(
+    ("recordings", "told"),
+    [
+        (HEAD + "r1,s,m,a\nr1,s,m2,a2\n", r"line 3: recording 'r1' stands in line 2 already"),
+        (HEAD + "r 1,s,m,a\n", r"recordings.csv, line 2, key recording: 'r 1' does not match"),
+        (HEAD + "r1,,m,a\n", r"line 2, key signer"),
+        (HEAD + "r1,s,m\n", r"line 2: the row has more or fewer cells"),
+        (HEAD + "r1,s,m,\n", r"line 2: no annotation file"),
+        (HEAD, r"no recording; expected one row a recording"),
+        (
+            "recording,signer,motion,annotation,colour\nr1,s,m,a,red\n",
+            r"line 2: Additional propert",
+        ),
+    ],
+)
+def test_a_wrong_recordings_csv_names_the_line(folder, recordings, told):
+    write(folder, recordings=recordings)
+    with pytest.raises(SignkinError, match=told):
+        load_corpus(folder)
+
+
+@pytest.mark.parametrize(
+    ("signs", "told"),
+    [
+        ("CAKE,1,1\nCAKE,0,0\n", r"signs.csv, line 3: gloss 'CAKE' stands in line 2 already"),
+        ("CAKE,3,0\n", r"line 2, key hands: '3' is not one of .*expected 0 \(one hand\)"),
+        ("CAKE,0,1\n", r"line 2: CAKE is symmetric with hands = 0"),
+        ("CAKE,2,1\n", r"line 2: CAKE is symmetric with hands = 2"),
+    ],
+)
+def test_a_wrong_signs_csv_names_the_line(folder, signs, told):
+    write(folder, signs="gloss,hands,symmetric\n" + signs)
+    with pytest.raises(SignkinError, match=told):
+        load_corpus(folder)
+
+
+def test_data_are_found_in_data_dir_or_beside_the_corpus(folder, tmp_path):
+    corpus = load_corpus(folder)
+    assert data_folder(corpus, None, tmp_path) is None
+    (tmp_path / "data" / "mine").mkdir(parents=True)
+    assert data_folder(corpus, tmp_path / "data", tmp_path) == tmp_path / "data" / "mine"
+    (folder / "data").mkdir()
+    assert data_folder(corpus, None, tmp_path) == folder / "data"
+
+
+def test_missing_and_changed_files_are_named(folder, tmp_path):
+    data = tmp_path / "data"
+    data.mkdir()
+    (data / "m.csv").write_text("x")
+    with pytest.raises(SignkinError, match=r"recordings.csv, line 2: there is no file .*a.csv"):
+        check_files(load_corpus(folder), data)
+    right = hashlib.sha256(b"x").hexdigest()
+    write(folder, changed(checksums={"m.csv": right}))
+    check_checksum(load_corpus(folder), data, "m.csv")
+    (data / "m.csv").write_text("y")
+    with pytest.raises(SignkinError, match=rf"the SHA-256 of m.csv is .*; expected {right}"):
+        check_checksum(load_corpus(folder), data, "m.csv")
+
+
+def test_an_unknown_corpus_lists_the_known_ones(folder):
+    with pytest.raises(SignkinError, match="no corpus yours; expected mine"):
+        load_corpora(folder.parent, ["yours"])
+    shutil.rmtree(folder)
+    with pytest.raises(SignkinError, match="there is no such folder"):
+        load_corpora(folder)
+
+
+def test_the_shipped_config_is_right_and_wrong_values_are_named(root):
+    config = yaml.safe_load((root / "config.yaml").read_text())
+    check_schema(config, "config", "config.yaml")
+    config["kinematics"]["lowpass"]["method"] = "median"
+    with pytest.raises(SignkinError, match=r"config.yaml, key kinematics.lowpass.method: 'median'"):
+        check_schema(config, "config", "config.yaml")

@@ -1,0 +1,180 @@
+"""Each kind of bad input: one sentence, exit status not 0, nothing that counts as done."""
+
+import re
+
+import pytest
+import yaml
+
+from signkin import tables
+from support.runs import MINI, checked, run
+
+
+def sentence(done):
+    """Return the lines that signkin itself printed."""
+    return [line for line in done.text.splitlines() if line.startswith("signkin: ")]
+
+
+def told(text):
+    return re.compile(text.replace("...", ".*"))
+
+
+def edit(name, change):
+    """Return a spoiler that rewrites a data file."""
+
+    def spoil(corpus, data):
+        path = data / name
+        path.write_text(change(path.read_text()))
+
+    return spoil
+
+
+def riddle(text):
+    """Blank the right wrist in every other stretch of half a second."""
+    lines = text.splitlines()
+    column = lines[0].split(",").index("right_wrist_x")
+    for i in range(1, len(lines)):
+        if (i // 25) % 2:
+            cells = lines[i].split(",")
+            cells[column : column + 3] = ["", "", ""]
+            lines[i] = ",".join(cells)
+    return "\n".join(lines) + "\n"
+
+
+def unknown_joint(corpus, data):
+    settings = yaml.safe_load((corpus / "corpus.yaml").read_text())
+    settings["motion"]["joints"]["right_hand"] = ["right_wrist_x", "right_wrist_y"]
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump(settings))
+
+
+def rate_of_zero(corpus, data):
+    text = (corpus / "corpus.yaml").read_text()
+    (corpus / "corpus.yaml").write_text(text.replace("rate_hz: 50", "rate_hz: 0"))
+
+
+def doubled_gloss(corpus, data):
+    (corpus / "signs.csv").write_text("gloss,hands,symmetric\nCAKE,1,1\nCAKE,0,0\n")
+
+
+def as_elan(corpus, data):
+    """Turn the second annotation into ELAN with one tier, and ask for another."""
+    settings = yaml.safe_load((corpus / "corpus.yaml").read_text())
+    settings["annotation"] = {"format": "eaf", "sign_tier": "Glosses"}
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump(settings))
+    from pathlib import Path
+
+    from signkin import Interval
+    from signkin.io.eaf import write_eaf
+
+    for i in (1, 2):
+        write_eaf(
+            Path(data / f"t{i}.csv"), author="t", date="2020", media_url="v.mp4",
+            tiers=[("Gloss", None, [Interval(1, 2, "A", "Gloss"), Interval(3, 4, "B", "Gloss")])],
+        )  # fmt: skip
+
+
+def as_bvh(corpus, data):
+    settings = yaml.safe_load((corpus / "corpus.yaml").read_text())
+    settings["motion"] = {
+        "format": "bvh", "unit": "cm", "joints": {"right_wrist": "A", "left_wrist": "B"},
+    }  # fmt: skip
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump(settings))
+    head = "HIERARCHY\nROOT A\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+    head += "JOINT B\n{\nOFFSET 1 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\n}\n"
+    rows = "0 0 0 0 0 0\n" * 6
+    (data / "m1.csv").write_text(f"{head}MOTION\nFrames: 900\nFrame Time: 0.02\n{rows}")
+
+
+def as_pose(corpus, data):
+    settings = yaml.safe_load((corpus / "corpus.yaml").read_text())
+    settings["motion"] = {
+        "format": "pose", "joints": {"right_wrist": "P.R", "left_wrist": "P.L"},
+    }  # fmt: skip
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump(settings))
+    (data / "m1.csv").write_bytes(b"\x00\x00\x20\x3e truncated")
+
+
+CASES = {
+    "unknown tier": (as_elan, r"t1.csv, tiers: no tier 'Glosses'; expected Gloss. Tier names are"),
+    "unknown joint": (unknown_joint, r"key motion.joints: the joint 'right_hand' is not in the"),
+    "tags past the end": (
+        edit("t2.csv", lambda t: t + "12.50,13.10,LATE\n"),
+        r"t2.csv, tier sign, 'LATE': 1 intervals end after the motion, the last at 13.100 s; "
+        r"expected no time after 12.000 s",
+    ),
+    "riddled wrist": (
+        edit("m1.csv", riddle),
+        r"recording m1, joint right_wrist: 50% of the frames have no position...at most 20%",
+    ),
+    "rate of 0": (rate_of_zero, r"corpus.yaml, key motion.rate_hz: 0 is less than or equal to"),
+    "truncated bvh": (as_bvh, r"m1.csv, line 20: 6 frames, where the header says 900"),
+    "truncated pose": (as_pose, r"m1.csv, 14 bytes: not readable as a .pose file"),
+    "doubled gloss": (doubled_gloss, r"signs.csv, line 3: gloss 'CAKE' stands in line 2 already"),
+    "missing file": (
+        lambda corpus, data: (data / "t2.csv").unlink(),
+        r"recordings.csv, line 3: there is no file ...t2.csv; expected the recording's file",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bad_input_is_one_sentence_and_leaves_nothing_done(mini, case):
+    spoil, expected = CASES[case]
+    folder, data = mini(spoil)
+    done = run(folder, data=data)
+    assert done.status != 0
+    lines = sentence(done) or [x for x in done.text.splitlines() if "signkin: " in x]
+    assert len(lines) == 1, done.text
+    assert told(expected).search(lines[0]), lines[0]
+    assert "Traceback" not in done.text
+    results = folder / "results"
+    assert not (results / "report").exists()
+    # No table or recording that the failing step was to write.
+    made = {p.name for p in results.rglob("*") if p.is_file()} if results.exists() else set()
+    if case == "riddled wrist":
+        assert not made & {"minima.csv", "plausibility.csv"}
+    else:
+        assert not made & {"0001.parquet", "intervals.csv"}
+
+
+def test_a_mini_corpus_runs_to_its_report(mini):
+    folder, data = mini()
+    done = checked(run(folder, data=data))
+    moves = tables.read_table(done.results / "naert2017/mini/transitions.csv", "transitions")
+    whole = moves[(moves["hand"] == "both")]
+    assert len(whole) == 16
+    assert set(whole["type_source"]) == {"lexicon", "kinematic"}
+    assert whole["geodesic_rad"].notna().all()
+    page = (done.results / "report/index.html").read_text(encoding="utf-8")
+    assert "real recordings" in page
+    assert "limb and palm frames" in page
+
+
+def test_a_bad_recording_is_left_out_and_listed_where_the_corpus_allows(mini):
+    folder, data = mini(edit("m1.csv", riddle), on_error="skip")
+    done = checked(run(folder, data=data))
+    excluded = tables.read_table(done.results / "mini/excluded.csv", "excluded")
+    assert excluded["recording"].tolist() == ["m1"]
+    assert excluded["stage"].tolist() == ["wrists"]
+    moves = tables.read_table(done.results / "naert2017/mini/transitions.csv", "transitions")
+    assert set(moves["recording"]) == {"m2"}
+    page = (done.results / "report/index.html").read_text(encoding="utf-8")
+    assert "mini: recording m1 is left out." in page
+
+
+def test_an_implausible_rate_is_warned_of_in_the_report(mini):
+    fast = yaml.safe_load(yaml.safe_dump(MINI))
+    fast["motion"]["rate_hz"] = 400
+
+    def squeeze(corpus, data):
+        for i in (1, 2):
+            path = data / f"t{i}.csv"
+            lines = path.read_text().splitlines()
+            cells = [line.split(",") for line in lines[1:]]
+            rows = [f"{float(a) / 8:.4f},{float(b) / 8:.4f},{g}" for a, b, g in cells]
+            path.write_text("\n".join([lines[0], *rows]) + "\n")
+
+    folder, data = mini(squeeze, **fast)
+    done = checked(run(folder, data=data))
+    page = (done.results / "report/index.html").read_text(encoding="utf-8")
+    assert "wrist speed, 99th percentile is implausible in 2 of 2 recordings" in page
+    assert "no hand moves so fast" in page

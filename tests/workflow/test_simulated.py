@@ -1,0 +1,191 @@
+"""What someone gets who has no real recordings, and what the pipeline promises of any run."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from signkin import read_annotation, tables
+from signkin.coarticulation.transitions import utterance_names
+from signkin.pipeline import naert2017
+from signkin.statistics import descriptive
+from support.runs import checked, command, environment, prepare, run
+
+
+def table(done, name, kind=None):
+    return tables.read_table(done.results / "naert2017/lsf-sim" / f"{name}.csv", kind or name)
+
+
+def test_table2_is_the_printed_one_in_every_digit(simulated_run, root):
+    found = table(simulated_run, "table2").set_index("type")
+    published = pd.read_csv(
+        root / "papers/naert2017/table2.csv", dtype=str, keep_default_na=False
+    ).set_index("type")
+    assert (found.loc[published.index, "equal"] == "yes").all()
+    for kind, row in published.iterrows():
+        told = found.loc[kind]
+        if row["n_without_outlier"]:
+            assert told["printed_mean"] == f"{row['mean']} ({row['mean_without_outlier']})"
+            assert told["printed_sd"] == f"{row['sd']} ({row['sd_without_outlier']})"
+        else:
+            assert [told["printed_n"], told["printed_mean"], told["printed_sd"]] == [
+                row["n"], row["mean"], row["sd"],
+            ]  # fmt: skip
+    assert found.loc["all", "printed_n"].startswith("89")
+
+
+def test_shifting_one_tag_by_one_frame_changes_exactly_its_row(simulated_run, root, tmp_path):
+    published = pd.read_csv(root / "papers/naert2017/table2.csv", dtype=str, keep_default_na=False)
+    sim = simulated_run.results / "lsf-sim/simulated"
+    lexicon = pd.read_csv(root / "corpora/lsf-sim/signs.csv", dtype=str).set_index("gloss")
+    digits = (lexicon["hands"] + lexicon["symmetric"]).to_dict()
+
+    def from_tags(files):
+        rows = []
+        for file in files:
+            a = read_annotation(file, tiers=("sign", "utterance"))
+            signs = a.tier("sign")
+            names = utterance_names(signs, a.tier("utterance"))
+            for before, after, u, v in zip(signs, signs[1:], names, names[1:], strict=False):
+                if u == v:
+                    kind = digits[before.label] + digits[after.label]
+                    rows.append((kind, round(after.start_s - before.end_s, 9)))
+        moves = pd.DataFrame(rows, columns=["type", "duration_s"])
+        flags = descriptive.outliers(moves["duration_s"].to_numpy(), 3.0)
+        return descriptive.table2(moves, flags, published).set_index("type")
+
+    files = [sim / "lsf-sim-1.eaf", sim / "lsf-sim-2.eaf"]
+    before = from_tags(files)
+    assert (before.loc[published["type"], "equal"] == "yes").all()
+    # The third sign's end, one frame later: the transition after it is one frame shorter.
+    signs = read_annotation(files[0], tiers=("sign",)).tier("sign")
+    kind = digits[signs[2].label] + digits[signs[3].label]
+    text = files[0].read_text()
+    slots = re.findall(rf'TIME_SLOT_ID="(ts\d+)" TIME_VALUE="{round(signs[2].end_s * 1000)}"', text)
+    assert len(slots) == 1
+    shifted = tmp_path / "shifted.eaf"
+    old = round(signs[2].end_s * 1000)
+    shifted.write_text(
+        text.replace(
+            f'TIME_SLOT_ID="{slots[0]}" TIME_VALUE="{old}"',
+            f'TIME_SLOT_ID="{slots[0]}" TIME_VALUE="{old + 10}"',
+        )
+    )
+    after = from_tags([shifted, files[1]])
+    rows = after.loc[published["type"]]
+    assert rows.index[rows["equal"] == "no"].tolist() == [kind]
+
+
+def test_the_surface_is_found_again(simulated_run):
+    surface = table(simulated_run, "surface")
+    published = surface["published"].astype(float)
+    assert surface["designed"].to_numpy() == pytest.approx(published.to_numpy(), abs=5e-6)
+    assert (surface["shift_percent"].abs() < 10).all()
+    assert (surface["low"] < published).all()
+    assert (published < surface["high"]).all()
+
+
+def test_refinement_brings_the_error_to_truth_down(simulated_run):
+    error = table(simulated_run, "truth_error").set_index(["hand", "segmentation"])
+    for hand in ("right", "left"):
+        assert error.loc[(hand, "refined"), "high_s"] < error.loc[(hand, "manual"), "low_s"]
+
+
+def test_transitions_of_every_segmentation_and_hand(simulated_run):
+    moves = table(simulated_run, "transitions")
+    counts = moves.groupby(["segmentation", "hand"]).size().to_dict()
+    assert counts == {
+        ("manual", "both"): 89, ("manual", "right"): 89, ("manual", "left"): 89,
+        ("refined", "right"): 89, ("refined", "left"): 89,
+    }  # fmt: skip
+    assert set(moves["type_source"]) == {"lexicon"}
+    whole = naert2017.counted(moves)
+    assert whole["geodesic_norm"].mean() == pytest.approx(0, abs=1e-9)
+    assert np.ptp(whole["euclidean_norm"]) == pytest.approx(1)
+    corners = tables.read_table(simulated_run.results / "naert2017/lsf-sim/diamond.csv", "diamond")
+    assert corners["share_inside"].iloc[0] > 0.9
+
+
+def test_what_is_missing_is_said(simulated_run):
+    page = (simulated_run.results / "report/index.html").read_text(encoding="utf-8")
+    for corpus in ("dgs-1984189", "boston104", "libras"):
+        assert f"{corpus} is not in this run: no folder of real recordings is set" in page
+    assert "SIMULATED" in page
+    assert not re.search(r">\s*nan\s*<", page, flags=re.IGNORECASE)
+
+
+def test_every_table_is_as_the_dictionary_says(simulated_run):
+    seen = 0
+    for path in sorted(simulated_run.results.glob("**/*.csv")):
+        kind = path.stem if path.stem in tables.TABLES else naert2017.FIGURE_TABLES.get(path.stem)
+        if path.parent.parent.name == "shards" and path.stem == "transitions":
+            kind = "raw_transitions"
+        if kind:
+            columns = list(pd.read_csv(path, nrows=0).columns)
+            assert columns == tables.TABLES[kind].names(), path
+            seen += 1
+    assert seen > 15
+
+
+def test_the_tags_are_written_back_beside_the_old_ones(simulated_run):
+    for name in ("lsf-sim-1", "lsf-sim-2"):
+        old = simulated_run.results / f"lsf-sim/simulated/{name}.eaf"
+        new = simulated_run.results / f"naert2017/lsf-sim/eaf/{name}.eaf"
+        a, b = read_annotation(old), read_annotation(new)
+        assert set(b.tiers) - set(a.tiers) == {"signkin refined right", "signkin refined left"}
+        for tier in a.tiers:
+            assert a.tier(tier) == b.tier(tier)
+        refined = table(simulated_run, "boundaries").query("recording == @name & hand == 'right'")
+        times = b.times_s("signkin refined right").ravel()
+        assert times == pytest.approx(refined["refined_s"].to_numpy(), abs=5e-4)
+
+
+def test_a_second_run_does_nothing(simulated_run):
+    again = checked(run(simulated_run.folder))
+    assert "Nothing to be done" in again.text
+
+
+def files_of(folder):
+    """Return the bytes of every result, with the run's own folder taken out of the names."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_path):
+    """The next run completes what a killed one left, with other cores, to the same bytes."""
+    folder = prepare(tmp_path / "run")
+    process = subprocess.Popen(
+        command("--cores", "2"), cwd=folder, env=environment(None), start_new_session=True,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline and process.poll() is None:
+        if (folder / "results/naert2017/lsf-sim/shards").exists():
+            break
+        time.sleep(0.05)
+    assert process.poll() is None, "the run was over before it could be killed"
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    checked(run(folder, "--cores", "1"))
+    first, second = files_of(simulated_run.results), files_of(folder / "results")
+    assert first.keys() == second.keys()
+    differing = [name for name in first if first[name] != second[name]]
+    assert differing == []
+
+
+def test_two_runs_in_one_folder_do_not_collide(simulated_run):
+    import fcntl
+
+    with (simulated_run.folder / ".snakemake/signkin.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        second = run(simulated_run.folder)
+    assert second.status == 1
+    assert "another run is at work" in second.text
