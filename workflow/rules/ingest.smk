@@ -21,7 +21,7 @@ if PLAN.simulated_by("lsf-sim"):
             f"<logs>/{LSF_SIM}/simulate.log",
         params:
             code=PLAN.digest("simulate_lsf.py"),
-            corpus=str(PLAN.corpora[LSF_SIM].folder),
+            corpus=lambda w: str(PLAN.corpora[LSF_SIM].folder),
             seed=config["seed"],
             euclidean_unit_m=config["transitions"]["euclidean_unit_m"],
         script:

@@ -1,0 +1,33 @@
+"""A headless Chromium of the machine, and the page of a run."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from support.runs import checked, prepare, run
+
+ARGUMENTS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    found = next(filter(None, map(shutil.which, ("chromium", "google-chrome"))), None)
+    if found is None:
+        pytest.skip("no Chromium on this machine (.ci/chromium installs Debian's)")
+    with sync_playwright() as playwright:
+        instance = playwright.chromium.launch(executable_path=found, args=ARGUMENTS)
+        yield instance
+        instance.close()
+
+
+@pytest.fixture(scope="session")
+def report(tmp_path_factory):
+    folder = prepare(tmp_path_factory.mktemp("page") / "run", corpora=["lsf-sim"])
+    return checked(run(folder)).results / "report/index.html"
