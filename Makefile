@@ -29,8 +29,8 @@ $(VENV)/ready: requirements.lock pyproject.toml
 test: lint unit
 
 lint: $(VENV)/ready
-	$(BIN)/ruff check src workflow/scripts tests
-	$(BIN)/ruff format --check src workflow/scripts tests
+	$(BIN)/ruff check src workflow/scripts tests docs
+	$(BIN)/ruff format --check src workflow/scripts tests docs
 	$(BIN)/snakefmt --check Snakefile workflow/rules
 	$(BIN)/mypy src
 	$(BIN)/lint-imports

@@ -212,6 +212,18 @@ TABLES: dict[str, Table] = {
             ),
         ),
         Table(
+            "lexicon",
+            "results/naert2017/<corpus>/lexicon.csv",
+            "a gloss of signs.csv or of the annotation",
+            (
+                _text("corpus", "corpus"),
+                _text("gloss", "gloss"),
+                _text("lexicon", "two digits from signs.csv, empty where the gloss is missing"),
+                Column("occurrences", "", "signs with this gloss in the corpus"),
+                _NOTE,
+            ),
+        ),
+        Table(
             "table1",
             "results/naert2017/<corpus>/table1.csv",
             "an utterance (Naert et al. 2017, Table 1)",

@@ -178,3 +178,24 @@ def test_an_implausible_rate_is_warned_of_in_the_report(mini):
     page = (done.results / "report/index.html").read_text(encoding="utf-8")
     assert "wrist speed, 99th percentile is implausible in 2 of 2 recordings" in page
     assert "no hand moves so fast" in page
+
+
+def test_a_gloss_that_never_occurs_is_told(mini):
+    folder, data = mini(lambda corpus, data: (corpus / "signs.csv").write_text(
+        "gloss,hands,symmetric\nCAKE,1,1\nCAKES,1,1\n"
+    ))  # fmt: skip
+    done = checked(run(folder, data=data))
+    lexicon = tables.read_table(done.results / "naert2017/mini/lexicon.csv", "lexicon")
+    notes = lexicon.set_index("gloss")["note"].to_dict()
+    assert notes["CAKES"].startswith("occurs in no recording")
+    assert notes["IX"].startswith("not in signs.csv")
+    assert notes["CAKE"] == ""
+    page = (done.results / "report/index.html").read_text(encoding="utf-8")
+    assert "signs.csv has 1 glosses that occur in no recording: CAKES" in page
+
+
+def test_a_data_folder_that_is_not_there_is_told(mini, tmp_path):
+    folder, _ = mini()
+    done = run(folder, data=tmp_path / "nowhere")
+    assert done.status != 0
+    assert "signkin: data_dir: there is no folder" in done.text

@@ -67,6 +67,7 @@ rule naert_tables:
         boundaries="<results>/naert2017/{corpus}/boundaries.csv",
         sign_types="<results>/naert2017/{corpus}/sign_types.csv",
         transitions="<results>/naert2017/{corpus}/transitions.csv",
+        lexicon="<results>/naert2017/{corpus}/lexicon.csv",
         left_out="<results>/naert2017/{corpus}/transitions_left_out.csv",
         table1="<results>/naert2017/{corpus}/table1.csv",
         table2="<results>/naert2017/{corpus}/table2.csv",

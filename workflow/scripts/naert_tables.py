@@ -22,6 +22,7 @@ with job(snakemake):
     published = pd.read_csv(source.published, dtype=str, keep_default_na=False)
 
     moves = with_normalised(raw, unit)
+    lexicon = coarticulation.lexicon_use(corpus, sign_types)
     table1 = coarticulation.table1(corpus, intervals, sign_types)
     table2 = naert2017.table2(corpus.name, moves, published, settings["transitions"])
     refinement, chance = coarticulation.refinement(
@@ -38,6 +39,7 @@ with job(snakemake):
         (sign_types, "sign_types", out.sign_types),
         (moves, "transitions", out.transitions),
         (naert2017.left_out(moves), "transitions", out.left_out),
+        (lexicon, "lexicon", out.lexicon),
         (table1, "table1", out.table1),
         (table2, "table2", out.table2),
         (refinement, "refinement", out.refinement),

@@ -251,7 +251,8 @@ def insert_tiers(content: bytes, tiers: Sequence[NewTier], clock_offset_s: float
         for i, interval in enumerate(tier.intervals, start=1):
             slots = []
             for edge, time_s in (("a", interval.start_s), ("b", interval.end_s)):
-                ms = round((time_s - clock_offset_s) * 1000)
+                # ELAN has no times before its media: a tag there is put at their start.
+                ms = max(0, round((time_s - clock_offset_s) * 1000))
                 slot = f"{MARK}_ts{t}_{i}{edge}"
                 slots.append(slot)
                 text = f'<TIME_SLOT TIME_SLOT_ID="{slot}" TIME_VALUE="{ms}"/>'

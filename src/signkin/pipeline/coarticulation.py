@@ -149,6 +149,22 @@ def _tags(refined: pd.DataFrame, recording: str, hand: str) -> np.ndarray:
     return rows["refined_s"].to_numpy(dtype=float).reshape(-1, 2)
 
 
+UNUSED = "occurs in no recording: misspelt?"
+UNTYPED = "not in signs.csv: typed from motion"
+
+
+def lexicon_use(corpus: Corpus, sign_types: pd.DataFrame) -> pd.DataFrame:
+    """Return the table `lexicon`: which glosses signs.csv and the annotation have in common."""
+    counts = sign_types["gloss"].value_counts()
+    glosses = sorted(set(counts.index) | set(corpus.lexicon))
+    rows = []
+    for gloss in glosses:
+        occurrences, digits = int(counts.get(gloss, 0)), corpus.lexicon.get(gloss, "")
+        note = UNUSED if not occurrences else "" if digits else UNTYPED
+        rows.append((corpus.name, gloss, digits, occurrences, note))
+    return pd.DataFrame(rows, columns=tables.TABLES["lexicon"].names())
+
+
 def table1(corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame) -> pd.DataFrame:
     """Return utterances with their glosses and, where there is a tier for it, a translation.
 

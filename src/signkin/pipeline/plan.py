@@ -114,6 +114,13 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         None if config["corpora"] == "all" else list(config["corpora"]),
     )
     data_dir = data_dir_of(config)
+    if data_dir is not None and not Path(data_dir).is_dir():
+        raise SignkinError(
+            f"there is no folder {data_dir}",
+            place="data_dir",
+            expected="the folder of the real recordings",
+            todo="Correct make DATA=..., SIGNKIN_DATA or data_dir in config.yaml.",
+        )
     there: dict[str, Corpus] = {}
     folders: dict[str, Path] = {}
     missing: dict[str, str] = {}

@@ -13,6 +13,7 @@ import yaml
 
 import signkin
 from signkin.corpus import Corpus
+from signkin.errors import listed
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -209,7 +210,19 @@ def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> S
         text=[line for line in text if line],
         badge="simulated" if corpus.simulator else "real",
         exhibits=views,
+        notices=_unused_glosses(sources, name),
     )
+
+
+def _unused_glosses(sources: Sources, name: str) -> list[str]:
+    frame = read_table(sources.naert(name, "lexicon.csv"), "lexicon")
+    unused = frame.loc[frame["occurrences"] == 0, "gloss"]
+    if unused.empty:
+        return []
+    return [
+        f"signs.csv has {len(unused)} glosses that occur in no recording: {listed(unused)}. "
+        "Misspelt, or not needed."
+    ]
 
 
 def _table1(sources: Sources, name: str, exhibit: Mapping[str, str]) -> TableView:
@@ -485,7 +498,8 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
     gaps = read_table(sources.shared(name, "gaps"), "gaps")
     findings = read_table(sources.shared(name, "plausibility"), "plausibility")
     verdicts = findings["verdict"].value_counts()
-    parts = [f"{len(frame)} recordings, {int(frame['frames'].sum())} frames."]
+    many = "recordings" if len(frame) > 1 else "recording"
+    parts = [f"{len(frame)} {many}, {int(frame['frames'].sum())} frames."]
     if gaps.empty:
         parts.append("No gaps.")
     else:
