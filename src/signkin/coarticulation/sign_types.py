@@ -39,7 +39,10 @@ class TypeRule:
 
 @dataclass(frozen=True, eq=False)
 class Wrists:
-    """Low-passed paths of both wrists, (F, 3) each, with their rate and a length to measure by."""
+    """Low-passed paths of both wrists, (F, 3), relative to the trunk where it is known.
+
+    rate_hz: of the paths. reach: a length of the signer to measure by, in their unit.
+    """
 
     right: NDArray[np.float64]
     left: NDArray[np.float64]

@@ -20,6 +20,7 @@ from signkin.coarticulation.sign_types import TypeRule, Wrists, reach_of, sign_t
 from signkin.coarticulation.transitions import transition_rows, utterance_names
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
+from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps
 from signkin.kinematics.rotations import parent_relative
 from signkin.pipeline.ingest import lead
@@ -90,9 +91,8 @@ def transitions(
         signs = intervals_of(intervals, recording.name, "sign")
         utterances = _utterances(corpus, intervals, recording.name, signs)
         filled = _filled(recording, settings["kinematics"]["longest_gap_s"])
-        kinds = sign_type_rows(
-            signs, utterances, _wrists(filled, wrist_frames[recording.name]), corpus.lexicon, rule
-        )
+        wrists = _wrists(filled, wrist_frames[recording.name], settings["kinematics"]["lowpass"])
+        kinds = sign_type_rows(signs, utterances, wrists, corpus.lexicon, rule)
         orientations = filled.orientations
         if orientations is not None and settings["transitions"]["geodesic_frame"] == "parent":
             orientations = parent_relative(filled)
@@ -125,10 +125,17 @@ def _filled(recording: Recording, longest_gap_s: float) -> Recording:
     return replace(recording, positions=positions)
 
 
-def _wrists(recording: Recording, frames: pd.DataFrame) -> Wrists:
+def _wrists(recording: Recording, frames: pd.DataFrame, filter_: Mapping[str, Any]) -> Wrists:
+    """Return the wrists' paths relative to the trunk: a body that sways moves no hand."""
+    trunk: np.ndarray | float = 0.0
+    shoulders = [f"{hand}_shoulder" for hand in HANDS]
+    if all(joint in recording.joints for joint in shoulders):
+        middle = (recording.track(shoulders[0]) + recording.track(shoulders[1])) / 2
+        trunk = lowpass(middle, recording.rate_hz, **filter_)
+
     def path(hand: str) -> np.ndarray:
         columns = [f"{hand}_wrist_{axis}_{recording.unit}" for axis in "xyz"]
-        return frames[columns].to_numpy(dtype=float)
+        return frames[columns].to_numpy(dtype=float) - trunk
 
     right, left = path("right"), path("left")
     reach = reach_of(right, left, _arm_length(recording))
