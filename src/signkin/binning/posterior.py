@@ -1,0 +1,513 @@
+"""Bayesian binning with polynomial segments (Endres et al. 2013, section 2.5), exactly.
+
+A trajectory of T bins is cut into M + 1 segments. Given the order S of the
+polynomials, each segment has a marginal likelihood in closed form (prior.py).
+The sum over all segmentations with M boundaries is a sum-product over bins,
+done for all M at once; with the prior of eq. 7, one over the number of such
+segmentations, it is P(D | M, S). P(M) is uniform (eq. 8), and so is P(S).
+
+Equations 10 and 11 as printed leave out the factor of eq. 7, and their limits do
+not fit: the last inner boundary is at most at bin T - 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from math import comb
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gammaln, logsumexp
+
+from signkin.binning import kernels
+from signkin.binning.prior import HIGHEST_ORDER, Prior, Tables, tables
+from signkin.errors import SignkinError
+
+Floats = NDArray[np.float64]
+
+# Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
+EVERY_COUNT_UP_TO = 256
+# There, at each bin, numbers of segments within this of the best path's are kept; the band is
+# widened until the bound on what it leaves out is below BAND_CUT_MASS.
+BAND = 32
+BAND_CUT_MASS = 1e-6
+CLEARANCE_BINS = 3
+TAIL_PRICES = 5
+PENALTIES = (8.0, 2.0, 1.0, 0.5, 0.2, 0.0, -0.5, -2.0, -8.0)  # in units of ln T, for bounds
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior:
+    """What a trajectory says about its segments, for each polynomial order.
+
+    orders: the orders, in the rows of the arrays. log_evidence_by_count: (orders, counts),
+    ln P(D | M, S) for M = 0, 1, ... inner boundaries. log_evidence: (orders,), ln P(D | S).
+    order_probability: (orders,), P(S | D). cut_mass: (orders,), a bound on the share of P(M | D)
+    beyond the counts that were worked out.
+    """
+
+    x: Floats
+    prior: Prior
+    dt_s: float | None
+    orders: tuple[int, ...]
+    max_segment_bins: int
+    log_evidence_by_count: Floats
+    log_evidence: Floats
+    order_probability: Floats
+    cut_mass: Floats
+    _count_probability: Floats
+    _boundary: Floats
+    _mean: Floats | None
+    _noise: Floats | None
+
+    def _row(self, order: int) -> int:
+        try:
+            return self.orders.index(order)
+        except ValueError:
+            raise SignkinError(
+                f"order {order} was not fitted", place="order", expected=str(self.orders)
+            ) from None
+
+    def count_probability(self, order: int) -> Floats:
+        """Return P(M | D, S), (counts,)."""
+        return self._count_probability[self._row(order)]
+
+    def map_count(self, order: int) -> int:
+        """Return the most probable number M of inner boundaries."""
+        return int(np.argmax(self.count_probability(order)))
+
+    def boundary_probability(self, order: int) -> Floats:
+        """Return the probability that a segment ends with bin q, (T - 1,), for q = 0..T-2.
+
+        Averaged over M. Its sum is the expected number of inner boundaries.
+        """
+        return self._boundary[self._row(order), :-1]
+
+    def boundaries(self, order: int, count: int | None = None) -> NDArray[np.int64]:
+        """Return the inner boundaries, as the bins that end segments, in order.
+
+        The `count` (None: the most probable number) largest local maxima of the boundary
+        posterior, taken greedily with a clearance of 3 bins around each: the largest values
+        alone would count one boundary twice. Fewer where there are no more maxima.
+        """
+        wanted = self.map_count(order) if count is None else count
+        return greedy_maxima(self.boundary_probability(order), wanted)
+
+    def map_segmentation(self, order: int, count: int | None = None) -> NDArray[np.int64]:
+        """Return the inner boundaries of the most probable segmentation with `count` of them."""
+        wanted = self.map_count(order) if count is None else count
+        evidence = self._evidence(order)
+        return kernels.best_boundaries(evidence, wanted + 1)
+
+    def expected_trajectory(self, order: int) -> Floats:
+        """Return the posterior mean of the trajectory, (T, L), averaged over segmentations."""
+        return self._kept(self._mean)[self._row(order)]
+
+    def map_trajectory(self, order: int, count: int | None = None) -> Floats:
+        """Return the mean of the most probable segmentation, (T, L): exactly piecewise."""
+        ends = [*self.map_segmentation(order, count), len(self.x) - 1]
+        segments = np.zeros((order + 1, len(self.x), self.max_segment_bins))
+        start = 0
+        for end in ends:
+            segments[order, start, end - start] = 1.0
+            start = int(end) + 1
+        mean, _ = _expectations(self.x, self.prior, self.dt_s, order + 1, segments)
+        return mean[order]
+
+    def noise_covariance(self, order: int) -> Floats:
+        """Return the noise covariance, (L, L): inverse expected precision, averaged over bins."""
+        return self._kept(self._noise)[self._row(order)]
+
+    @staticmethod
+    def _kept(values: Floats | None) -> Floats:
+        if values is None:
+            raise SignkinError(
+                "expectations were not asked for", place="fit", expected="fit(..., expectations=True)"
+            )
+        return values
+
+    def _evidence(self, order: int) -> Floats:
+        bins, dims = self.x.shape
+        made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
+        return _evidence(_whitened(self.x, self.prior), made, self.max_segment_bins)[order]
+
+
+def fit(
+    X: Floats,
+    orders: Sequence[int] = tuple(range(8)),
+    prior: Prior | None = None,
+    dt_s: float | None = None,
+    max_count: int | None = None,
+    max_segment_bins: int | None = None,
+    expectations: bool = True,
+    name: str = "trajectory",
+) -> Posterior:
+    """Return the posterior of one trajectory for all orders at once.
+
+    X: (T, L), taken as given: the prior's coefficients are around 0, so centre it first.
+    orders: polynomial orders. prior: mandatory. dt_s: duration of a bin, for
+    Prior(time_unit="second"). max_count: the largest M worked out; None is every M up to 256
+    bins, and above those around the likely M, the others being -inf; either way `cut_mass`
+    bounds the share of P(M | D) that is left out. max_segment_bins: the longest segment; segmentations with
+    longer ones have no prior probability, the others share it evenly. expectations: whether to
+    work out expected trajectories and noise too.
+
+    Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
+    """
+    if prior is None:
+        raise SignkinError("no prior", file=name, expected="Prior(noise_sd=...)")
+    x, wanted = _checked(X, orders, name)
+    bins, dims = x.shape
+    longest = bins if max_segment_bins is None else int(max_segment_bins)
+    if longest < 1:
+        raise SignkinError(
+            f"max_segment_bins is {longest}", file=name, expected="a whole number from 1"
+        )
+    longest = min(longest, bins)
+    n_orders = max(wanted) + 1
+    made = tables(prior, bins, longest, dims, n_orders, dt_s)
+    whitened = _whitened(x, prior)
+    evidence = _evidence(whitened, made, longest)
+    every = max_count is not None or bins <= EVERY_COUNT_UP_TO
+    found = (_counted if every else _in_band)(evidence, wanted, bins, longest, max_count)
+    mean = noise = None
+    if expectations:
+        for d in set(range(n_orders)) - set(wanted):
+            evidence[d] = 0.0  # not asked for: no segment of it counts
+        means, noises = _expect(whitened, made, evidence)
+        scale = np.sqrt(prior.inverse_scale(dims))
+        mean = means[list(wanted)] * scale
+        noise = noises[list(wanted)] * np.outer(scale, scale)
+    return Posterior(
+        x=x,
+        prior=prior,
+        dt_s=dt_s,
+        orders=wanted,
+        max_segment_bins=longest,
+        log_evidence_by_count=found.log_by_count - _log_uniform(bins),
+        log_evidence=found.log_evidence,
+        order_probability=np.exp(found.log_evidence - logsumexp(found.log_evidence)),
+        cut_mass=found.cut_mass,
+        _count_probability=found.probability,
+        _boundary=found.boundary,
+        _mean=mean,
+        _noise=noise,
+    )
+
+
+def fit_many(
+    trajectories: Iterable[Floats],
+    orders: Sequence[int] = tuple(range(8)),
+    prior: Prior | None = None,
+    workers: int = 1,
+    names: Sequence[str] | None = None,
+    **options: object,
+) -> list[Posterior]:
+    """Fit many trajectories, on `workers` cores; the results do not depend on how many.
+
+    The kernels run without Python's lock, so threads share the work. options: as for `fit`.
+    """
+    items = list(trajectories)
+    called = [f"trajectory {i + 1}" for i in range(len(items))] if names is None else list(names)
+
+    def one(job: tuple[Floats, str]) -> Posterior:
+        return fit(job[0], orders, prior, name=job[1], **options)  # type: ignore[arg-type]
+
+    jobs = zip(items, called, strict=True)
+    if workers <= 1:
+        return [one(job) for job in jobs]
+    with ThreadPoolExecutor(max_workers=workers) as pool:
+        return list(pool.map(one, jobs))
+
+
+def segment_log_evidence(
+    X: Floats, order: int, prior: Prior, dt_s: float | None = None
+) -> Floats:
+    """Return ln P(X[i..j]) of every segment, (T, T) at [i, j], inclusive; -inf for j < i.
+
+    Local time runs from 1 to the segment's number of bins. X is taken as given.
+    """
+    x, _ = _checked(X, [order], "trajectory", least_bins=1)
+    bins, dims = x.shape
+    made = tables(prior, bins, bins, dims, order + 1, dt_s)
+    by_length = _evidence(_whitened(x, prior), made, bins)[order]
+    out = np.full((bins, bins), -np.inf)
+    for i in range(bins):
+        out[i, i:] = by_length[i, : bins - i]
+    return out
+
+
+def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:
+    """Return the places of up to `count` largest local maxima, 3 bins cleared around each."""
+    left = np.asarray(probability, dtype=float)
+    padded = np.concatenate([[-np.inf], left, [-np.inf]])
+    peak = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:]) & (left > 0)
+    free = np.where(peak, left, -np.inf)
+    found: list[int] = []
+    while len(found) < count:
+        best = int(np.argmax(free)) if len(free) else 0
+        if not len(free) or not np.isfinite(free[best]):
+            break
+        found.append(best)
+        free[max(0, best - CLEARANCE_BINS) : best + CLEARANCE_BINS + 1] = -np.inf
+    return np.array(sorted(found), dtype=np.int64)
+
+
+# --- inside ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Rows for the wanted orders. log_by_count: ln(P(M) P(D | M))."""
+
+    log_by_count: Floats
+    probability: Floats
+    boundary: Floats
+    log_evidence: Floats
+    cut_mass: Floats
+
+
+def _checked(
+    X: Floats, orders: Sequence[int], name: str, least_bins: int = 2
+) -> tuple[Floats, tuple[int, ...]]:
+    x = np.ascontiguousarray(np.atleast_2d(np.asarray(X, dtype=float)))
+    if np.ndim(X) == 1:
+        x = np.ascontiguousarray(x.T)
+    if x.ndim != 2 or x.shape[0] < least_bins or x.shape[1] < 1:
+        raise SignkinError(
+            f"the data have shape {np.shape(X)}",
+            file=name,
+            expected=f"(bins, dimensions) with {least_bins} bins or more",
+        )
+    bad = ~np.isfinite(x).all(axis=1)
+    if bad.any():
+        raise SignkinError(
+            f"{int(bad.sum())} bins have no value",
+            file=name,
+            place=f"bin {int(np.argmax(bad))}",
+            expected="finite values; fill or cut out gaps first",
+        )
+    wanted = tuple(int(order) for order in orders)
+    if not wanted or min(wanted) < 0 or max(wanted) > HIGHEST_ORDER or len(set(wanted)) < len(wanted):
+        raise SignkinError(
+            f"the orders are {list(orders)}",
+            file=name,
+            expected=f"different orders from 0 to {HIGHEST_ORDER}",
+        )
+    if max(wanted) >= x.shape[0]:
+        raise SignkinError(
+            f"order {max(wanted)} with {x.shape[0]} bins",
+            file=name,
+            expected="more bins than the order",
+            todo="Leave out the high orders, or take more bins.",
+        )
+    return x, wanted
+
+
+def _whitened(x: Floats, prior: Prior) -> Floats:
+    return np.ascontiguousarray(x / np.sqrt(prior.inverse_scale(x.shape[1])))
+
+
+def _evidence(whitened: Floats, made: Tables, longest: int) -> Floats:
+    n_orders = made.cosine.shape[1]
+    out = np.empty((n_orders, len(whitened), longest))
+    kernels.segment_evidence(whitened, made.cosine, made.sine, made.constant, made.half, out)
+    return out
+
+
+def _expect(whitened: Floats, made: Tables, segments: Floats) -> tuple[Floats, Floats]:
+    bins, dims = whitened.shape
+    mean = np.empty((len(segments), bins, dims))
+    noise = np.empty((len(segments), dims, dims))
+    kernels.expectations(
+        whitened, made.cosine, made.sine, made.inverse, made.powers, made.half, segments, mean, noise
+    )
+    return mean, noise
+
+
+def _expectations(
+    x: Floats, prior: Prior, dt_s: float | None, n_orders: int, segments: Floats
+) -> tuple[Floats, Floats]:
+    """Return expectations for given segment probabilities, in the data's unit."""
+    bins, dims = x.shape
+    made = tables(prior, bins, segments.shape[2], dims, n_orders, dt_s)
+    mean, noise = _expect(_whitened(x, prior), made, segments)
+    scale = np.sqrt(prior.inverse_scale(dims))
+    return mean * scale, noise * np.outer(scale, scale)
+
+
+def _counted(
+    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None
+) -> _Found:
+    """Work out M = 0..max_count; `evidence` (D, T, W) becomes probabilities of segments."""
+    fewest = -(-bins // longest) - 1
+    most = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
+    counts = most + 1
+    rows = len(wanted)
+    # The bound wants the evidence, which is overwritten.
+    bounds = [_log_tail(evidence[d], counts, bins) for d in wanted]
+    log_by_count, probability = np.empty((2, rows, counts))
+    boundary = np.empty((rows, bins))
+    log_evidence, lost = np.empty((2, rows))
+    kernels.fit_orders(
+        evidence, np.array(wanted), np.ascontiguousarray(_log_prior(bins, longest)[:counts]),
+        log_by_count, probability, boundary, log_evidence, lost,
+    )  # fmt: skip
+    _refuse_lost(lost)
+    cut = np.array([_share(b, e) for b, e in zip(bounds, log_evidence, strict=True)])
+    return _Found(log_by_count, probability, boundary, log_evidence, cut)
+
+
+def _in_band(
+    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None
+) -> _Found:
+    """Work out the likely M of a long series, with a bound on what is left out."""
+    log_prior = _log_prior(bins, longest)
+    rows = len(wanted)
+    log_by_count, probability = np.empty((2, rows, bins))
+    boundary = np.empty((rows, bins))
+    log_evidence, cut = np.empty((2, rows))
+    for i, d in enumerate(wanted):
+        half_width = BAND
+        while True:
+            kept = evidence[d].copy()
+            log_evidence[i], lost, left_out, price = kernels.fit_order_in_band(
+                kept, log_prior, half_width, log_by_count[i], probability[i], boundary[i]
+            )
+            _refuse_lost(np.array([lost]))
+            cut[i] = _band_cut(
+                evidence[d], log_by_count[i], log_prior, log_evidence[i], left_out, price
+            )
+            if cut[i] <= BAND_CUT_MASS or 2 * half_width >= bins:
+                break
+            half_width *= 2
+        evidence[d] = kept
+    return _Found(log_by_count, probability, boundary, log_evidence, cut)
+
+
+def _band_cut(
+    evidence: Floats, log_by_count: Floats, log_prior: Floats, log_evidence: float,
+    left_out: float, price: float,
+) -> float:  # fmt: skip
+    """Return a bound on the share of P(M | D) that a band leaves out.
+
+    Outside of the window of counts the bound of `_log_tail`. Inside of it, paths that leave the
+    band: their share at the pass's price of a segment, times the most that the prior differs
+    from that price over the window.
+    """
+    bins = len(evidence)
+    inside = np.flatnonzero(np.isfinite(log_by_count))
+    low, high = int(inside[0]), int(inside[-1]) + 1
+    tail = np.logaddexp(
+        _log_tail_by_sums(evidence, log_prior, 0, low),
+        _log_tail_by_sums(evidence, log_prior, high, bins),
+    )
+    window = np.arange(low, high)
+    differs = log_prior[low:high] + (window + 1) * price
+    at_price = log_by_count[low:high] - differs
+    worst = differs.max() + logsumexp(at_price) - log_evidence
+    with np.errstate(divide="ignore"):
+        strayed = np.exp(min(0.0, np.log(left_out) + worst))
+    return float(min(1.0, _share(tail, log_evidence) + strayed))
+
+
+def _refuse_lost(lost: Floats) -> None:
+    if lost.max() > 1e-9:
+        raise SignkinError(
+            f"{lost.max():.1e} of the posterior was lost to underflow",
+            place="sum-product",
+            expected="less than 1e-9",
+            todo="Report this trajectory: the pass should have found its peak.",
+        )
+
+
+def _log_uniform(bins: int) -> float:
+    return -float(np.log(bins))  # eq. 8: P(M) = 1 / T
+
+
+@lru_cache(maxsize=256)
+def _log_prior(bins: int, longest: int) -> Floats:
+    """Return ln(P(M) P({q} | M)) for M = 0..T-1 (eq. 7, 8); -inf where no segmentation fits."""
+    m = np.arange(bins)
+    if longest >= bins:
+        log_number = gammaln(bins) - gammaln(m + 1) - gammaln(bins - m)
+    else:
+        log_number = _log_compositions(bins, longest)
+    return np.where(np.isfinite(log_number), _log_uniform(bins) - log_number, -np.inf)
+
+
+@lru_cache(maxsize=16)
+def _log_compositions(bins: int, longest: int) -> Floats:
+    """Return the log of the number of ways to cut T bins into M + 1 parts of at most W each.
+
+    By the log-domain recursion over parts where inclusion and exclusion of whole numbers
+    would grow too long; whole numbers up to 600 bins.
+    """
+    if bins <= 600:
+        return np.array([_log_whole(_compositions(bins, m + 1, longest)) for m in range(bins)])
+    return kernels.log_compositions(bins, longest)
+
+
+def _compositions(total: int, parts: int, largest: int) -> int:
+    """Return the number of ordered sums of `parts` numbers from 1 to `largest` (exact)."""
+    return sum(
+        (-1) ** r * comb(parts, r) * comb(total - r * largest - 1, parts - 1)
+        for r in range(parts + 1)
+        if total - r * largest - 1 >= parts - 1
+    )
+
+
+def _log_whole(number: int) -> float:
+    if number <= 0:
+        return float("-inf")
+    shift = max(0, number.bit_length() - 900)
+    return float(np.log(float(number >> shift)) + shift * np.log(2.0))
+
+
+def _log_tail(evidence: Floats, first: int, bins: int) -> float:
+    """Return the log of a bound on the sum of P(M) P(D | M) over M >= first. Quick, for short T.
+
+    P(D | M) is a mean over segmentations, so at most the best one's likelihood; and for any
+    penalty, that is at most the best penalised path, with the penalties of M + 1 segments put
+    back. The least over some penalties is the bound.
+    """
+    m = np.arange(first, bins)
+    if not len(m):
+        return -np.inf
+    best = np.empty(bins + 1)
+    bound = np.full(len(m), np.inf)
+    for penalty in np.log(bins) * np.array(PENALTIES):
+        kernels.best_path(evidence, float(penalty), best)
+        bound = np.minimum(bound, best[bins] + (m + 1) * penalty)
+    return float(logsumexp(bound)) + _log_uniform(bins)
+
+
+def _log_tail_by_sums(evidence: Floats, log_prior: Floats, first: int, end: int) -> float:
+    """Return the log of a bound on the sum of P(M) P(D | M) over M = first..end - 1.
+
+    For any price of a segment, the sum over the segmentations with M boundaries is at most the
+    sum over all, each segment paying the price, with M + 1 prices put back (Chernoff's bound).
+    The least over the prior's own prices at some M of the range, and some higher ones (where
+    few segments fit badly), is the bound.
+    """
+    if end <= first:
+        return -np.inf
+    bins = len(evidence)
+    m = np.arange(first, end)
+    best, weight = np.empty(bins + 1), np.empty(evidence.shape)
+    bound = np.full(len(m), np.inf)
+    places = np.unique(np.geomspace(first + 1, end, TAIL_PRICES).astype(int) - 1)
+    prices = [kernels.price_of_boundary(bins, int(at)) for at in places]
+    if first == 0:
+        prices += [4.0 * prices[0], 16.0 * prices[0], 64.0 * prices[0]]
+    for price in prices:
+        total = kernels.log_all_ways(evidence, price, best, weight)
+        bound = np.minimum(bound, total + (m + 1) * price)
+    return float(logsumexp(bound + log_prior[first:end]))
+
+
+def _share(log_tail: float, log_evidence: float) -> float:
+    return float(np.exp(min(0.0, log_tail - log_evidence)))

@@ -1,0 +1,187 @@
+"""The prior of a segment (Endres et al. 2013, section 2.5.5) and what follows from it alone.
+
+A segment's mean is a polynomial of order S in its local time u = step, 2 step,
+..., n step; its noise is Gaussian with a full covariance. The coefficients have
+the prior N(0, (b I (x) P)^-1), the precision P a Wishart prior with `dof` degrees of
+freedom and inverse scale V^-1. On a regular grid the design matrix of a segment
+depends on its length alone, and so do the rotations that bring it to
+triangular form: they are made once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import multigammaln
+
+from signkin.errors import SignkinError, listed
+
+TIME_UNITS = ("bin", "second", "trajectory")
+SCALES = ("expected", "plain")
+HIGHEST_ORDER = 9
+
+
+@dataclass(frozen=True)
+class Prior:
+    """The Gauss-Wishart prior of every segment.
+
+    noise_sd: standard deviation of the noise in the data's unit, one or one a dimension.
+    dof: degrees of freedom of the Wishart density; None stands for the number of dimensions.
+    concentration: b, the printed B = b I (0.1 in the paper).
+    time_unit: what a step of the polynomials' time is: `bin` (1), `second` (the bin's duration)
+    or `trajectory` (one over the number of bins). The paper does not say.
+    scale: `expected`, V^-1 = dof noise_sd^2 I, so that noise_sd is the noise a segment is
+    expected to have; or `plain`, V^-1 = noise_sd^2 I, the other reading of "prior covariance".
+    """
+
+    noise_sd: float | tuple[float, ...]
+    dof: float | None = None
+    concentration: float = 0.1
+    time_unit: str = "bin"
+    scale: str = "expected"
+
+    def __post_init__(self) -> None:
+        """Refuse values that make no density."""
+        deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
+        if not (np.isfinite(deviations).all() and (deviations > 0).all()):
+            raise _error("noise_sd", self.noise_sd, "a standard deviation above 0")
+        if not (np.isfinite(self.concentration) and self.concentration > 0):
+            raise _error("concentration", self.concentration, "a number above 0")
+        if self.time_unit not in TIME_UNITS:
+            raise _error("time_unit", self.time_unit, listed(TIME_UNITS))
+        if self.scale not in SCALES:
+            raise _error("scale", self.scale, listed(SCALES))
+
+    def degrees(self, dimensions: int) -> float:
+        """Return the degrees of freedom for data of so many dimensions."""
+        degrees = float(dimensions if self.dof is None else self.dof)
+        if not degrees > dimensions - 1:
+            raise _error("dof", self.dof, f"more than {dimensions - 1} for {dimensions} dimensions")
+        return degrees
+
+    def inverse_scale(self, dimensions: int) -> NDArray[np.float64]:
+        """Return the diagonal of V^-1, (L,)."""
+        deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
+        if len(deviations) not in (1, dimensions):
+            raise _error("noise_sd", self.noise_sd, f"one value, or {dimensions}")
+        factor = self.degrees(dimensions) if self.scale == "expected" else 1.0
+        return np.asarray(np.broadcast_to(factor * deviations**2, (dimensions,)), dtype=float)
+
+    def step(self, bins: int, dt_s: float | None) -> float:
+        """Return the polynomials' time of one bin, for a trajectory of so many bins."""
+        if self.time_unit == "bin":
+            return 1.0
+        if self.time_unit == "trajectory":
+            return 1.0 / bins
+        if dt_s is None or not dt_s > 0:
+            raise _error("dt_s", dt_s, "the duration of a bin in seconds, for time_unit second")
+        return float(dt_s)
+
+
+def _error(place: str, found: object, expected: str) -> SignkinError:
+    return SignkinError(f"{place} is {found}", place="prior", expected=expected)
+
+
+@dataclass(frozen=True, eq=False)
+class Tables:
+    """What a prior says about segments of n = 1..N bins, at [n - 1], for orders 0..D-1.
+
+    cosine, sine: (N, D) Givens rotations that append sample n to the triangular factor of
+    [sqrt(B); Phi]. inverse: (N, D, D) inverse of that factor. powers: (N, D) of local time.
+    constant: (N, D) and half: (N,), so that with the L x L matrix R of the residuals (whitened
+    by V) the log evidence is constant - half * ln|I + R|.
+    """
+
+    cosine: NDArray[np.float64]
+    sine: NDArray[np.float64]
+    inverse: NDArray[np.float64]
+    powers: NDArray[np.float64]
+    constant: NDArray[np.float64]
+    half: NDArray[np.float64]
+
+
+def tables(prior: Prior, bins: int, longest: int, dimensions: int, n_orders: int,
+           dt_s: float | None) -> Tables:  # fmt: skip
+    """Return the tables for segments of up to `longest` bins."""
+    return _tables(
+        longest, n_orders, dimensions, prior.concentration, prior.step(bins, dt_s),
+        prior.degrees(dimensions), tuple(prior.inverse_scale(dimensions)),
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=64)
+def _tables(
+    longest: int, n_orders: int, dimensions: int, b: float, step: float, dof: float,
+    inverse_scale: tuple[float, ...],
+) -> Tables:  # fmt: skip
+    geometry = _geometry(longest, n_orders, b, step)
+    n = np.arange(1, longest + 1)
+    log_scale = float(np.sum(np.log(inverse_scale)))
+    # ln p = -nL/2 ln pi + L/2 (ln|B| - ln|A|) - n/2 ln|V^-1| + ln G((dof + n)/2) - ln G(dof/2)
+    #        - (dof + n)/2 ln|I + R|
+    gamma = multigammaln_each((dof + n) / 2, dimensions) - multigammaln(dof / 2, dimensions)
+    rest = gamma - 0.5 * n * (dimensions * np.log(np.pi) + log_scale)
+    constant = rest[:, None] + dimensions * geometry.log_ratio
+    return Tables(
+        geometry.cosine, geometry.sine, geometry.inverse, geometry.powers,
+        np.ascontiguousarray(constant), (dof + n) / 2,
+    )  # fmt: skip
+
+
+def multigammaln_each(a: NDArray[np.float64], dimensions: int) -> NDArray[np.float64]:
+    """Return the log of the multivariate gamma function for each element of an array."""
+    return np.array([multigammaln(value, dimensions) for value in a])
+
+
+@dataclass(frozen=True, eq=False)
+class _Geometry:
+    cosine: NDArray[np.float64]
+    sine: NDArray[np.float64]
+    inverse: NDArray[np.float64]
+    powers: NDArray[np.float64]
+    log_ratio: NDArray[np.float64]  # (ln|B| - ln|A|) / 2 for each order
+
+
+@lru_cache(maxsize=64)
+def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
+    """Rotate one row after the other into the factor, in extended precision."""
+    wide = np.longdouble
+    root_b = np.sqrt(wide(b))
+    factor = np.eye(n_orders, dtype=wide) * root_b
+    cosine, sine = np.empty((2, longest, n_orders), dtype=wide)
+    factors = np.empty((longest, n_orders, n_orders), dtype=wide)
+    times = wide(step) * np.arange(1, longest + 1, dtype=wide)
+    powers = times[:, None] ** np.arange(n_orders)
+    for n in range(longest):
+        row = powers[n].copy()
+        for d in range(n_orders):
+            size = np.hypot(factor[d, d], row[d])
+            c, s = factor[d, d] / size, row[d] / size
+            old = factor[d, d:].copy()
+            factor[d, d:] = c * old + s * row[d:]
+            row[d:] = c * row[d:] - s * old
+            cosine[n, d], sine[n, d] = c, s
+        factors[n] = factor
+    diagonal = np.diagonal(factors, axis1=1, axis2=2)
+    log_ratio = np.cumsum(np.log(root_b) - np.log(diagonal), axis=1)
+    return _Geometry(
+        *(np.ascontiguousarray(x, dtype=np.float64) for x in (cosine, sine)),
+        np.ascontiguousarray(_inverse(factors), dtype=np.float64),
+        np.ascontiguousarray(powers, dtype=np.float64),
+        np.asarray(log_ratio, dtype=np.float64),
+    )
+
+
+def _inverse(upper: NDArray[np.longdouble]) -> NDArray[np.longdouble]:
+    """Return the inverses of upper triangular matrices (N, D, D)."""
+    size = upper.shape[1]
+    out = np.zeros_like(upper)
+    for column in range(size):
+        out[:, column, column] = 1 / upper[:, column, column]
+        for row in range(column - 1, -1, -1):
+            total = (upper[:, row, row + 1 : column + 1] * out[:, row + 1 : column + 1, column]).sum(1)
+            out[:, row, column] = -total / upper[:, row, row]
+    return out
