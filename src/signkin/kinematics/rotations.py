@@ -1,4 +1,5 @@
-"""Orientations: relative to the parent joint, and made from positions where none were recorded."""
+"""Orientations: relative to the parent joint, made from positions where none were recorded, and
+between two postures."""
 
 from __future__ import annotations
 
@@ -95,3 +96,117 @@ def frame_of(along: NDArray[np.float64], beside: NDArray[np.float64]) -> NDArray
     if there.any():
         out[there] = Rotation.from_matrix(matrices[there]).as_quat()
     return out
+
+
+# --- quaternions as arrays -------------------------------------------------------------------
+# For stacks of (frames, joints, 4), where scipy's Rotation takes flat lists only.
+
+
+def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the product a b of scalar-last quaternions (..., 4): b first, then a."""
+    av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]
+    vector = aw * bv + bw * av + np.cross(av, bv)
+    scalar = aw * bw - (av * bv).sum(axis=-1, keepdims=True)
+    return np.concatenate([vector, scalar], axis=-1)
+
+
+def inverse(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the inverse of unit quaternions (..., 4)."""
+    return q * np.array([-1.0, -1.0, -1.0, 1.0])
+
+
+def rotate(q: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn vectors (..., 3) by unit quaternions (..., 4)."""
+    axis, scalar = q[..., :3], q[..., 3:]
+    twice = 2 * np.cross(axis, vectors)
+    return vectors + scalar * twice + np.cross(axis, twice)
+
+
+def unbroken(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Choose between q and -q, one rotation, so that each frame (axis 0) follows the last one."""
+    turns = np.where((q[1:] * q[:-1]).sum(axis=-1, keepdims=True) < 0, -1.0, 1.0)
+    signs = np.concatenate([np.ones_like(q[:1, ..., :1]), np.cumprod(turns, axis=0)])
+    return q * signs
+
+
+def slerp(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    shorter: bool = True,
+) -> NDArray[np.float64]:
+    """Return the rotations on the arcs from a (weight 0) to b (weight 1), at constant speed.
+
+    a, b: (..., 4) unit quaternions; weight: broadcast against their last axis. shorter: go the
+    shorter way round; else the signs of a and b tell the way.
+    """
+    cosine = (a * b).sum(axis=-1, keepdims=True)
+    # Exactly opposite quaternions are one rotation, and have no arc between them.
+    b = np.where(cosine < (0 if shorter else -1 + 1e-15), -b, b)
+    # The half angle by its tangent: the arc cosine loses small angles.
+    half = np.arctan2(np.linalg.norm(b - a, axis=-1), np.linalg.norm(b + a, axis=-1))[..., None]
+    angle = 2 * half
+    sine = np.sin(angle)
+    near = sine < 1e-9
+    safe = np.where(near, 1.0, sine)
+    first = np.where(near, 1 - weight, np.sin((1 - weight) * angle) / safe)
+    second = np.where(near, weight, np.sin(weight * angle) / safe)
+    return _unit(first * a + second * b)
+
+
+def linear(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    shorter: bool = True,
+) -> NDArray[np.float64]:
+    """Return (1 - weight) a + weight b brought to length 1 (arguments as `slerp`).
+
+    The same arcs as slerp's, faster in their middle.
+    """
+    if shorter:
+        b = np.where((a * b).sum(axis=-1, keepdims=True) < 0, -b, b)
+    return _unit((1 - weight) * a + weight * b)
+
+
+def _unit(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    return q / np.linalg.norm(q, axis=-1, keepdims=True)
+
+
+def local_pose(
+    positions: NDArray[np.float64], orientations: NDArray[np.float64], parents: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return shifts (F, J, 3) and rotations (F, J, 4) of joints in their parents' frames.
+
+    Roots (parent -1) stay in the world. The inverse of `world_pose`.
+    """
+    at = np.array(parents)
+    child = np.flatnonzero(at >= 0)
+    shifts, rotations = positions.copy(), orientations.copy()
+    back = inverse(orientations[:, at[child]])
+    shifts[:, child] = rotate(back, positions[:, child] - positions[:, at[child]])
+    rotations[:, child] = multiply(back, orientations[:, child])
+    return shifts, rotations
+
+
+def world_pose(
+    shifts: NDArray[np.float64], rotations: NDArray[np.float64], parents: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return world positions (F, J, 3) and orientations (F, J, 4): forward kinematics."""
+    positions, orientations = shifts.copy(), rotations.copy()
+    for joint in _downwards(parents):
+        parent = parents[joint]
+        if parent >= 0:
+            turn = orientations[:, parent]
+            positions[:, joint] = positions[:, parent] + rotate(turn, shifts[:, joint])
+            orientations[:, joint] = multiply(turn, rotations[:, joint])
+    return positions, orientations
+
+
+def _downwards(parents: tuple[int, ...]) -> list[int]:
+    """Return the joints, parents before children."""
+
+    def depth(joint: int) -> int:
+        return 0 if parents[joint] < 0 else 1 + depth(parents[joint])
+
+    return sorted(range(len(parents)), key=depth)
