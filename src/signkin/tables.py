@@ -429,7 +429,7 @@ TABLES: dict[str, Table] = {
                 _text("material", "own or other (see synthesis)"),
                 _text("measure", "which error"),
                 _text("unit", "its unit; |ln ratio|: none"),
-                _text("method", "interpolation or blending"),
+                _text("method", "interpolation or blending; either, where it does not matter"),
                 _text("duration_model", "simple, simple_bounded, linear, surface or true"),
                 Column("transitions", "", "transitions made"),
                 Column("n", "", "of these, with a value for every method"),

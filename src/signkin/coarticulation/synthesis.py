@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -174,15 +175,20 @@ def fitted(sign: Sign, to: Recording) -> tuple[Sign, tuple[str, ...]]:
     Other joints are an error. Another rate is resampled to the other recording's, another length
     of bones (recordings with a hierarchy) is replaced by the other skeleton's.
     """
-    own = sign.recording
-    if own is to:
+    if sign.recording is to:
         return sign, ()
+    own, notes = _fitted(sign.recording, to)
+    return replace(sign, recording=own), notes
+
+
+@lru_cache(maxsize=64)
+def _fitted(own: Recording, to: Recording) -> tuple[Recording, tuple[str, ...]]:
     if own.joints != to.joints or own.unit != to.unit or _joined(own) != _joined(to):
         lost = sorted(set(to.joints) ^ set(own.joints))
         raise SignkinError(
             f"the skeletons of {to.name} and {own.name} differ"
             + (f" in {listed(lost)}" if lost else " in order, unit, hierarchy or orientations"),
-            place=f"sign {sign.gloss}",
+            file=f"recording {own.name}",
             expected="the same joints in both recordings",
             todo="Choose signs of recordings with one skeleton.",
         )
@@ -197,7 +203,7 @@ def fitted(sign: Sign, to: Recording) -> tuple[Sign, tuple[str, ...]]:
         if worst > SAME_BONE_M:
             notes.append(f"{own.name} put on the skeleton of {to.name} ({worst:.3f} m apart)")
             own = _with_bones(own, there)
-    return replace(sign, recording=own), tuple(notes)
+    return own, tuple(notes)
 
 
 def resampled(recording: Recording, rate_hz: float) -> Recording:
@@ -225,8 +231,7 @@ def _joined(recording: Recording) -> bool:
 
 def _bones(recording: Recording) -> NDArray[np.float64]:
     """Return the median shift of each joint in its parent's frame, (J, 3)."""
-    pose = _Pose.of(recording, np.arange(recording.frames))
-    return np.asarray(np.nanmedian(pose.shifts, axis=0))
+    return np.asarray(np.nanmedian(_whole(recording).shifts, axis=0))
 
 
 def _with_bones(recording: Recording, bones: NDArray[np.float64]) -> Recording:
@@ -264,14 +269,19 @@ class _Pose:
     @classmethod
     def of(cls, recording: Recording, frames: NDArray[np.int64]) -> _Pose:
         """Return the postures of some frames, in the parents' frames where there are some."""
-        positions = recording.positions[frames]
-        if recording.orientation_source != "recorded" or recording.orientations is None:
-            return cls(positions, None)
-        turns = recording.orientations[frames]
-        if recording.parents is None:
-            return cls(positions, unbroken(turns))
-        shifts, local = local_pose(positions, turns, recording.parents)
-        return cls(shifts, unbroken(local))
+        whole = _whole(recording)
+        return cls(whole.shifts[frames], None if whole.turns is None else whole.turns[frames])
+
+
+@lru_cache(maxsize=64)
+def _whole(recording: Recording) -> _Pose:
+    """Return all postures of a recording; many transitions ask for the same."""
+    if recording.orientation_source != "recorded" or recording.orientations is None:
+        return _Pose(recording.positions, None)
+    if recording.parents is None:
+        return _Pose(recording.positions, unbroken(recording.orientations))
+    shifts, turns = local_pose(recording.positions, recording.orientations, recording.parents)
+    return _Pose(shifts, unbroken(turns))
 
 
 def _captured(

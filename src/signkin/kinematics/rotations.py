@@ -105,9 +105,14 @@ def frame_of(along: NDArray[np.float64], beside: NDArray[np.float64]) -> NDArray
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the product a b of scalar-last quaternions (..., 4): b first, then a."""
     av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]
-    vector = aw * bv + bw * av + np.cross(av, bv)
+    vector = aw * bv + bw * av + _cross(av, bv)
     scalar = aw * bw - (av * bv).sum(axis=-1, keepdims=True)
     return np.concatenate([vector, scalar], axis=-1)
+
+
+def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    # numpy's own takes five times as long for the few joints of a body.
+    return a[..., (1, 2, 0)] * b[..., (2, 0, 1)] - a[..., (2, 0, 1)] * b[..., (1, 2, 0)]
 
 
 def inverse(q: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -118,8 +123,8 @@ def inverse(q: NDArray[np.float64]) -> NDArray[np.float64]:
 def rotate(q: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Turn vectors (..., 3) by unit quaternions (..., 4)."""
     axis, scalar = q[..., :3], q[..., 3:]
-    twice = 2 * np.cross(axis, vectors)
-    return vectors + scalar * twice + np.cross(axis, twice)
+    twice = 2 * _cross(axis, vectors)
+    return vectors + scalar * twice + _cross(axis, twice)
 
 
 def unbroken(q: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -16,7 +16,14 @@ from signkin.coarticulation import duration
 from signkin.coarticulation.duration import DurationModel, Transitions
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.retrieval import Candidates, Scale, best_chain, distances
-from signkin.coarticulation.synthesis import METHODS, Sign, blend, interpolate
+from signkin.coarticulation.synthesis import (
+    METHODS,
+    Sign,
+    Transition,
+    blend,
+    interpolate,
+    steps_of,
+)
 from signkin.coarticulation.transitions import SAME_INSTANT_S
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
@@ -32,6 +39,7 @@ from signkin.recording import Recording
 MODELS = ("simple", "simple_bounded", "linear", "surface")
 TRUE = "true"
 OWN, OTHER = "own", "other"
+DURATION_ERROR = "duration error"
 CONTEXT_S = 0.5  # of the signs around a transition, for filter and minima
 Array = NDArray[np.float64]
 
@@ -437,6 +445,7 @@ def _rows(
         true = measures(take, own[0].last, truth, take, own[1].first, kinematic)
     wrists = [take.index(f"{hand}_wrist") for hand in HANDS]
     rows = []
+    made_before: dict[tuple[str, int], tuple[Transition, Measures]] = {}
     for model, wanted in durations.items():
         for method in METHODS:
             row: dict[str, Any] = {
@@ -466,17 +475,10 @@ def _rows(
                     if model == TRUE
                     else "predicted under one frame: one frame step made"
                 )
-            made = (interpolate if method == "interpolation" else blend)(
-                first,
-                second,
-                shown,
-                orientations=settings["orientations"],
-                keep_limbs=settings["keep_limbs"],
-            )
-            got = measures(
-                first.recording, first.last, made.motion.positions, second.recording,
-                second.first, kinematic,
-            )  # fmt: skip
+            key = (method, steps_of(shown, take.rate_hz))
+            if key not in made_before:
+                made_before[key] = _made(method, first, second, shown, kinematic, settings)
+            made, got = made_before[key]
             notes += made.notes
             row |= {
                 f"peak_speed_{unit}_per_s": got.peak_speed,
@@ -508,6 +510,32 @@ def _rows(
                     notes.append("the captured motion itself")
             row["note"] = "; ".join(notes)
     return rows
+
+
+def _made(
+    method: str,
+    first: Sign,
+    second: Sign,
+    duration_s: float,
+    kinematic: Mapping[str, Any],
+    settings: Mapping[str, Any],
+) -> tuple[Transition, Measures]:
+    made = (interpolate if method == "interpolation" else blend)(
+        first,
+        second,
+        duration_s,
+        orientations=settings["orientations"],
+        keep_limbs=settings["keep_limbs"],
+    )
+    got = measures(
+        first.recording,
+        first.last,
+        made.motion.positions,
+        second.recording,
+        second.first,
+        kinematic,
+    )
+    return made, got
 
 
 _MEASURED = (
@@ -547,7 +575,7 @@ def error_measures(unit: str) -> dict[str, tuple[str, Callable[[pd.DataFrame], p
         return of
 
     return {
-        "duration error": ("s", lambda rows: rows["duration_error_s"].abs()),
+        DURATION_ERROR: ("s", lambda rows: rows["duration_error_s"].abs()),
         "position error": (unit, lambda rows: rows[f"error_{unit}"]),
         "wrist position error": (unit, lambda rows: rows[f"wrist_error_{unit}"]),
         "peak speed, |ln ratio|": ("", ratio(f"peak_speed_{unit}_per_s")),
@@ -571,8 +599,9 @@ def summary(rows: pd.DataFrame, corpus: Corpus, draws: int, seed: int) -> pd.Dat
                 index=["recording", "transition"], columns=["method", "duration_model"],
                 values="value", dropna=False, observed=False, sort=False,
             )  # fmt: skip
+            methods = METHODS[:1] if measure == DURATION_ERROR else METHODS
             values = values.reindex(
-                columns=pd.MultiIndex.from_product([METHODS, (*MODELS, TRUE)])
+                columns=pd.MultiIndex.from_product([methods, (*MODELS, TRUE)])
             )
             known = values.dropna(axis=1, how="all")
             complete = known.dropna()
@@ -587,7 +616,7 @@ def summary(rows: pd.DataFrame, corpus: Corpus, draws: int, seed: int) -> pd.Dat
                         "material": material,
                         "measure": measure,
                         "unit": unit,
-                        "method": column[0],
+                        "method": "either" if measure == DURATION_ERROR else column[0],
                         "duration_model": column[1],
                         "transitions": total,
                         **_summary_row(column, complete, known, means, best),
