@@ -10,6 +10,7 @@ Site` is a joint named `<parent>_end`, with its parent's orientation.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -206,6 +207,56 @@ def forward_kinematics(
             world.append(world[parent] * local)
         orientations[:, joint] = world[joint].as_quat()
     return positions, orientations
+
+
+def channel_values(
+    hierarchy: Hierarchy, positions: NDArray[np.float64], orientations: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the channel values (F, C) of world positions and orientations: the way back.
+
+    positions (F, J, 3), orientations (F, J, 4), of the hierarchy's joints in its order. A joint
+    without position channels stays at its OFFSET, whatever its position says. Angles follow one
+    another without jumps, so that a program may interpolate between frames.
+    """
+    if positions.shape[1] != len(hierarchy.joints):
+        raise SignkinError(
+            f"{positions.shape[1]} joints",
+            place="hierarchy",
+            expected=f"{len(hierarchy.joints)}, all joints and end sites of the hierarchy",
+        )
+    columns: list[NDArray[np.float64]] = []
+    for joint, parent in enumerate(hierarchy.parents):
+        channels = hierarchy.channels[joint]
+        if not channels:
+            continue
+        turn, shift = Rotation.from_quat(orientations[:, joint]), positions[:, joint]
+        if parent >= 0:
+            above = Rotation.from_quat(orientations[:, parent])
+            turn = above.inv() * turn
+            shift = above.inv().apply(shift - positions[:, parent])
+        order = "".join(name[0] for name in channels if name.endswith("rotation"))
+        angles = _euler(turn, order) if order else np.empty((len(positions), 0))
+        for name in channels:
+            if name.endswith("position"):
+                columns.append(shift[:, "XYZ".index(name[0])])
+            else:
+                columns.append(angles[:, order.index(name[0])])
+    return np.column_stack(columns)
+
+
+def _euler(turns: Rotation, order: str) -> NDArray[np.float64]:
+    """Return Euler angles in degrees, (F, 3), each frame as near to the last one as it can be."""
+    with warnings.catch_warnings():
+        # Where two axes fall together scipy says that it takes the third angle for 0: as good.
+        warnings.filterwarnings("ignore", message="Gimbal lock")
+        angles = turns.as_euler(order, degrees=True)
+    for frame in range(1, len(angles)):
+        before, found = angles[frame - 1], angles[frame]
+        # Turning the outer axes by 180 degrees and mirroring the middle one is the same rotation.
+        other = np.array([found[0] + 180, 180 - found[1], found[2] + 180])
+        near = [a - 360 * np.rint((a - before) / 360) for a in (found, other)]
+        angles[frame] = min(near, key=lambda a: float(np.abs(a - before).sum()))
+    return np.asarray(angles)
 
 
 def _parents_among(parents: tuple[int, ...], chosen: list[int]) -> tuple[int, ...]:

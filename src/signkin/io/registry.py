@@ -151,6 +151,18 @@ def read_annotation(
     return annotation
 
 
+def in_file_axes(
+    recording: Recording, *, unit: str, up: str = "z", right: str = "x"
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Return positions and orientations in a file's own axes and unit: `read_recording` undone."""
+    scale, _ = _scale(None, unit)
+    basis = axis_basis(up, right)
+    positions = recording.positions / scale @ basis
+    if recording.orientations is None:
+        return positions, None
+    return positions, _turned(recording.orientations, basis.T)
+
+
 def axis_basis(up: str, right: str) -> NDArray[np.float64]:
     """Return the rotation (3, 3) that takes file axes to right, forward, up.
 

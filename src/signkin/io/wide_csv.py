@@ -15,6 +15,7 @@ import pandas as pd
 
 from signkin.errors import SignkinError, listed
 from signkin.io.registry import SourceMotion, motion_reader
+from signkin.recording import Recording
 
 # A clock that is off by more than this share of a frame is not a constant rate.
 CLOCK_TOLERANCE = 0.05
@@ -141,3 +142,22 @@ def _rate(times: np.ndarray, column: str) -> float:
             todo="Resample the recording to a constant rate first.",
         )
     return 1.0 / mean
+
+
+def write_wide_csv(path: Path, recording: Recording) -> None:
+    """Write positions as `read_wide_csv` reads them; gaps are empty cells.
+
+    Columns: time_s, then `<joint>_x_m`, `_y_m`, `_z_m` (or `_px`): right, forward, up.
+    """
+    columns = {"time_s": recording.times_s}
+    for joint, axes in column_map(recording).items():
+        for axis, column in enumerate(axes):
+            columns[column] = recording.track(joint)[:, axis]
+    pd.DataFrame(columns).to_csv(path, index=False, float_format="%.9g", lineterminator="\n")
+
+
+def column_map(recording: Recording) -> dict[str, list[str]]:
+    """Return the columns of each joint in a written table: the joint map to read it with."""
+    return {
+        joint: [f"{joint}_{axis}_{recording.unit}" for axis in "xyz"] for joint in recording.joints
+    }

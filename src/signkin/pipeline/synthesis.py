@@ -31,7 +31,7 @@ from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.kinematics.rotations import parent_relative
-from signkin.pipeline.coarticulation import _filled, _utterances, intervals_of
+from signkin.pipeline.coarticulation import filled_recording, intervals_of, utterances_of
 from signkin.pipeline.ingest import lead
 from signkin.pipeline.stock import Place, placed
 from signkin.recording import Recording
@@ -172,12 +172,12 @@ def database(
     takes: dict[str, Recording] = {}
     tokens: list[Token] = []
     for recording in recordings:
-        filled = _filled(recording, settings["kinematics"]["longest_gap_s"])
+        filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
         if settings["synthesis"]["align_takes"] and takes:
             filled = placed(filled, Place.of(next(iter(takes.values()))))
         takes[filled.name] = filled
         signs = intervals_of(intervals, filled.name, "sign")
-        names = _utterances(corpus, intervals, filled.name, signs)
+        names = utterances_of(corpus, intervals, filled.name, signs) if signs else []
         tokens += [
             Token(
                 Sign(recording=filled, gloss=s.label, start_s=s.start_s, end_s=s.end_s), n, name
