@@ -1,5 +1,6 @@
 # make               set up and run the main job: tables, figures and the report
 # make DATA=folder   the same with the real recordings of a folder (or set SIGNKIN_DATA)
+# make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
 # make test          set up and pass the tests
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
@@ -12,11 +13,14 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all test lint unit lock clean
+.PHONY: all utterance test lint unit lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
 	@$(BIN)/signkin run $(ARGS)
+
+utterance: $(VENV)/ready
+	@$(BIN)/signkin utterance '$(CORPUS)' '$(GLOSSES)' $(ARGS)
 
 $(VENV)/ready: requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(0 if v >= (3, 11) else \

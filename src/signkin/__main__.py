@@ -1,4 +1,5 @@
-"""The command line: `signkin run` runs the workflow of the folder it is called in."""
+"""The command line: `signkin run` runs the workflow of the folder it is called in, `signkin
+utterance` makes an utterance from a list of glosses."""
 
 from __future__ import annotations
 
@@ -17,8 +18,38 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("run", help="run the workflow; further arguments go to snakemake")
-    _, for_snakemake = parser.parse_known_args(arguments)
-    return run_workflow(for_snakemake)
+    speak = commands.add_parser("utterance", help="an utterance from the signs of a corpus")
+    speak.add_argument("corpus", help="a corpus of this folder's config.yaml")
+    speak.add_argument("glosses", nargs="+", help="glosses in order; one text with spaces, or "
+                       "commas where glosses hold spaces, is taken apart")  # fmt: skip
+    speak.add_argument("--name", help="of the files; by default made from the glosses")
+    for key in ("method", "duration", "retrieval"):
+        speak.add_argument(f"--{key}", help=f"instead of synthesis.{key} in config.yaml")
+    told, for_snakemake = parser.parse_known_args(arguments)
+    if told.command == "run":
+        return run_workflow(for_snakemake)
+    if for_snakemake:
+        parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
+    return say(told)
+
+
+def say(told: argparse.Namespace) -> int:
+    """Make one utterance; what it wants of the workflow is run first."""
+    from signkin.errors import SignkinError
+    from signkin.pipeline.speak import glosses_of, prerequisites, speak
+
+    changes = {k: v for k in ("method", "duration", "retrieval") if (v := getattr(told, k))}
+    try:
+        targets = prerequisites(told.corpus, changes, ROOT)
+        status = run_workflow(["--quiet", "all", "--", *targets])
+        if status:
+            return status
+        for line in speak(told.corpus, glosses_of(told.glosses), told.name, changes, ROOT):
+            print(line)
+    except SignkinError as error:
+        print(f"signkin: {error}", file=sys.stderr)
+        return 1
+    return 0
 
 
 def run_workflow(extra: list[str], folder: Path | None = None) -> int:
@@ -42,7 +73,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
         done = subprocess.run(command, cwd=folder, env={**os.environ, **threads}, check=False)
     page = folder / "results" / "report" / "index.html"
-    if done.returncode == 0 and page.exists():
+    if done.returncode == 0 and page.exists() and "--" not in extra:
         print(f"The report: {page}")
     return done.returncode
 

@@ -26,6 +26,7 @@ rule report:
         rules.naert2017.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
+        synthesis=rules.syntheses.input,
         speeds=collect(rules.wrist_speeds.output, corpus=PLAN.untagged),
         paper=[
             PLAN.papers / "naert2017" / name

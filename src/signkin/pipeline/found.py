@@ -26,7 +26,8 @@ def found_signs(
 ) -> pd.DataFrame:
     """Return the table `found_signs`; settings: config.yaml (kinematics, synthesis).
 
-    corpus.yaml (`synthesis.signs`) may name the gloss of a take, and its interval.
+    corpus.yaml (`synthesis.signs`) says which takes hold one sign each, with its gloss and, where
+    motion is not to be asked, its interval.
     """
     known = corpus.settings.get("synthesis", {}).get("signs", {})
     unknown = sorted(set(known) - {take.name for take in takes})
@@ -39,7 +40,9 @@ def found_signs(
         )
     rows = []
     for take in takes:
-        told = known.get(take.name, {})
+        if take.name not in known:
+            continue
+        told = known[take.name]
         if "start_s" in told:
             start, end, source = told["start_s"], told["end_s"], "corpus.yaml"
         else:

@@ -46,6 +46,15 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if not corpus.tagged]
 
     @property
+    def with_found_signs(self) -> list[str]:
+        """Corpora without tags that say which of their takes hold one sign each."""
+        return [n for n in self.untagged if self.corpora[n].settings.get("synthesis", {}).get("signs")]
+
+    def corpora_files(self, corpus: str) -> list[str]:
+        """Return all data files of a corpus."""
+        return [str(self.folders[corpus] / name) for name in self.corpora[corpus].files()]
+
+    @property
     def with_elan(self) -> list[str]:
         """Corpora whose tags are ELAN files, which refinement writes back."""
         return [
@@ -113,6 +122,14 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         _own_or_shipped(config["corpora_dir"], root),
         None if config["corpora"] == "all" else list(config["corpora"]),
     )
+    for wanted in config["synthesis"]["utterances"]:
+        if not (_own_or_shipped(config["corpora_dir"], root) / wanted["corpus"]).is_dir():
+            raise SignkinError(
+                f"no corpus {wanted['corpus']!r}",
+                file="config.yaml",
+                place=f"key synthesis.utterances, {wanted['name']}",
+                expected=listed(corpora),
+            )
     data_dir = data_dir_of(config)
     if data_dir is not None and not Path(data_dir).is_dir():
         raise SignkinError(

@@ -13,6 +13,7 @@ import pandas as pd
 
 from signkin import tables
 from signkin.coarticulation.duration import (
+    TERMS,
     DurationModel,
     MeanDuration,
     SimpleBoundedDuration,
@@ -34,6 +35,7 @@ from signkin.errors import SignkinError, listed
 from signkin.io import read_recording
 from signkin.io.bvh import channel_values, parse_bvh, write_bvh
 from signkin.io.registry import in_file_axes
+from signkin.io.store import read_recordings
 from signkin.io.wide_csv import write_wide_csv
 from signkin.pipeline.found import found_signs
 from signkin.pipeline.stock import Place, placement
@@ -88,6 +90,30 @@ def sign_database(
         for row in found.itertuples()
     ]
     return of_tokens(corpus, base.recordings, tokens, settings), found
+
+
+def load_database(
+    corpus: Corpus,
+    files: Sequence[str | Path],
+    intervals: str | Path,
+    excluded: str | Path,
+    settings: Mapping[str, Any],
+) -> tuple[Database, pd.DataFrame]:
+    """Read canonical recordings and tags, those left out aside; returns as `sign_database`."""
+    without = set(tables.read_table(excluded, "excluded")["recording"])
+    takes = [take for file in files for take in read_recordings(Path(file))]
+    return sign_database(
+        corpus,
+        [take for take in takes if take.name not in without],
+        tables.read_table(intervals, "intervals"),
+        settings,
+    )
+
+
+def printed_theta(constants: str | Path) -> np.ndarray:
+    """Return theta of eq. 4 as the paper prints it, (3,), from papers/naert2017/constants.csv."""
+    frame = pd.read_csv(constants, dtype=str, keep_default_na=False).set_index("name")
+    return np.array([float(frame.loc[f"theta_{term}", "value"]) for term in TERMS])
 
 
 # --- retrieval -------------------------------------------------------------------------------
