@@ -107,9 +107,7 @@ def best_chain(costs: Sequence[NDArray[np.float64]]) -> tuple[list[int], float]:
     return chosen[::-1], float(total.min())
 
 
-def greedy_chain(
-    costs: Sequence[NDArray[np.float64]], first: int = 0
-) -> tuple[list[int], float]:
+def greedy_chain(costs: Sequence[NDArray[np.float64]], first: int = 0) -> tuple[list[int], float]:
     """Return the choices of someone who goes from sign to sign, each time to the nearest."""
     chosen, total = [first], 0.0
     for cost in costs:

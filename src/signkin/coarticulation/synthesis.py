@@ -10,6 +10,7 @@ limbs may be given their length back (`keep_limbs`).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -393,5 +394,5 @@ def limbs(joints: Sequence[str]) -> list[tuple[int, int]]:
             names = [f"{hand}_{part}" for part in chain]
             there = [place[name] for name in names if name in place]
             if names[0] in place:
-                out += [(child, parent) for parent, child in zip(there, there[1:], strict=False)]
+                out += [(child, parent) for parent, child in itertools.pairwise(there)]
     return out

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -32,20 +33,20 @@ def bones(joints: Sequence[str]) -> list[tuple[int, int]]:
     place = {joint: i for i, joint in enumerate(joints)}
     names: list[tuple[str, str]] = []
     trunk = [joint for joint in _TRUNK if joint in place]
-    names += list(zip(trunk, trunk[1:], strict=False))
+    names += list(itertools.pairwise(trunk))
     top = next((j for j in ("chest", "spine_3", "spine_2", "neck") if j in place), None)
     for hand in HANDS:
         arm = [f"{hand}_{part}" for part in ("clavicle", "shoulder", "elbow", "wrist")]
         arm = [joint for joint in arm if joint in place]
         if top is not None and arm and not arm[0].endswith("wrist"):
             arm = [top, *arm]
-        names += list(zip(arm, arm[1:], strict=False))
+        names += list(itertools.pairwise(arm))
         names.append((f"{hand}_shoulder", f"{hand}_hip"))
         for finger in FINGERS:
             chain = [f"{hand}_wrist"]
             chain += [f"{hand}_{finger}_{n}" for n in ("1", "2", "3", "4", "tip")]
             chain = [joint for joint in chain if joint in place]
-            names += list(zip(chain, chain[1:], strict=False))
+            names += list(itertools.pairwise(chain))
     if top is None:
         names.append(("right_shoulder", "left_shoulder"))
     names.append(("right_hip", "left_hip"))
@@ -132,7 +133,7 @@ def frame_on(
     head = next((j for j in ("head", "nose") if j in joints), None)
     if head is not None:
         lift = 1.7 if head == "head" else 1.1
-        high = max(high, float(np.nanmax(z[..., list(joints).index(head)])) + lift * radius)
+        high = max(high, np.nanmax(z[..., list(joints).index(head)]) + lift * radius)
     for ax in axes:
         ax.set_xlim(np.nanmin(x) - 0.7 * radius, np.nanmax(x) + 0.7 * radius)
         ax.set_ylim(low, high)
@@ -223,8 +224,8 @@ def plot_transition_speed(
         # The full line is wide and below: others that run along it stay to be seen.
         wide = line == "-"
         ax.plot(
-            time, speed, color=colour, ls=line, lw=2.0 if wide else 1.3, zorder=2.1 if wide else 2.5,
-            label=f"{name}, {duration:.2f} s",
+            time, speed, color=colour, ls=line, lw=2.0 if wide else 1.3,
+            zorder=2.1 if wide else 2.5, label=f"{name}, {duration:.2f} s",
         )  # fmt: skip
         _mark(ax, time, speed, duration, colour)
     ax.axvline(0, color=NEUTRAL, lw=0.8, ls=":")

@@ -48,7 +48,9 @@ class Plan:
     @property
     def with_found_signs(self) -> list[str]:
         """Corpora without tags that say which of their takes hold one sign each."""
-        return [n for n in self.untagged if self.corpora[n].settings.get("synthesis", {}).get("signs")]
+        return [
+            n for n in self.untagged if self.corpora[n].settings.get("synthesis", {}).get("signs")
+        ]
 
     def corpora_files(self, corpus: str) -> list[str]:
         """Return all data files of a corpus."""

@@ -14,6 +14,7 @@ import yaml
 import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
+from signkin.pipeline import synthesis_report
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -65,6 +66,8 @@ def make_page(sources: Sources) -> Page:
     for name, corpus in sources.corpora.items():
         if corpus.tagged:
             sections.append(_corpus_section(sources, name, labels))
+        elif part := synthesis_report.section(name, corpus, sources.naert(name, ""), labels):
+            sections.append(part)
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
     return Page(
@@ -178,6 +181,7 @@ def _files(base: Path) -> tuple[Path, ...]:
 def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> Section:
     corpus = sources.corpora[name]
     captions = json.loads(sources.naert(name, "captions.json").read_text(encoding="utf-8"))
+    captions |= synthesis_report.captions(sources.naert(name, ""))
     views: list[TableView | FigureView] = []
     for identity, exhibit in labels.items():
         if identity == "table1":
@@ -200,6 +204,7 @@ def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> S
             views += _refinement(sources, name)
     views += _left_out(sources, name)
     views.append(_sign_types(sources, name))
+    views += synthesis_report.views(sources.naert(name, ""), corpus.unit)
     if corpus.simulator:
         views += _simulation(sources, name)
     text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]

@@ -23,7 +23,7 @@ class Place:
 
     @classmethod
     def of(cls, take: Recording) -> Place:
-        """Return the median middle and direction of the shoulders, else of a joint of the midline."""
+        """Return the median middle and direction of the shoulders, else a joint of the midline."""
         shoulders = [f"{hand}_shoulder" for hand in HANDS]
         if all(joint in take.joints for joint in shoulders):
             right, left = (take.track(joint) for joint in shoulders)

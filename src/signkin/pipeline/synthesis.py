@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -123,8 +123,9 @@ class Database:
         geodesic = np.full(len(first), np.nan)
         if a.last_turns is not None and b.first_turns is not None:
             geodesic = geodesic_distance(a.last_turns, b.first_turns)
-        speeds = np.array([[self.speeds(i), self.speeds(j)] for i, j in zip(first, second,
-                                                                          strict=True)])
+        speeds = np.array(
+            [[self.speeds(i), self.speeds(j)] for i, j in zip(first, second, strict=True)]
+        )
         speeds = speeds.reshape(-1, 2, 2)
         return Transitions(
             geodesic=geodesic,
@@ -134,7 +135,7 @@ class Database:
             angular_speed=speeds[..., 1],
         )
 
-    @lru_cache(maxsize=None)  # noqa: B019 - a database lives as long as its job
+    @cache  # noqa: B019 - a database lives as long as its job
     def speeds(self, token: int) -> tuple[float, float]:
         """Return the mean linear and angular speed of a sign over its joints and frames.
 
@@ -179,9 +180,7 @@ def database(
         signs = intervals_of(intervals, filled.name, "sign")
         names = utterances_of(corpus, intervals, filled.name, signs) if signs else []
         tokens += [
-            Token(
-                Sign(recording=filled, gloss=s.label, start_s=s.start_s, end_s=s.end_s), n, name
-            )
+            Token(Sign(recording=filled, gloss=s.label, start_s=s.start_s, end_s=s.end_s), n, name)
             for n, (s, name) in enumerate(zip(signs, names, strict=True), start=1)
         ]
     return of_tokens(corpus, takes, tokens, settings)
@@ -267,6 +266,12 @@ def predictions(
                 values[held] = asked[held].ask(fitted)
         out[model] = values
     return out
+
+
+def captured(base: Database, pairs: Sequence[Pair]) -> Transitions:
+    """Return captured transitions as the duration models learn from them."""
+    data = base.features([p.first for p in pairs], [p.second for p in pairs])
+    return with_durations(data, np.array([p.true_s for p in pairs]))
 
 
 def groups_of(database: Database, pairs: Sequence[Pair]) -> list[str]:
@@ -373,19 +378,20 @@ def comparison(base: Database, settings: Mapping[str, Any]) -> pd.DataFrame:
     if not pairs:
         return tables.empty("synthesis", base.corpus.unit)
     groups = groups_of(base, pairs)
-    chosen = {OWN: [(p.first, p.second) for p in pairs], OTHER: substitutes(base, pairs)}
-    known = with_durations(
-        base.features(*zip(*chosen[OWN], strict=True)), np.array([p.true_s for p in pairs])
-    )
+    own = [(p.first, p.second) for p in pairs]
+    chosen: dict[str, Sequence[tuple[int, int] | None]] = {
+        OWN: own,
+        OTHER: substitutes(base, pairs),
+    }
+    known = captured(base, pairs)
     depth = {
         name: least_depth(take, settings["kinematics"]) for name, take in base.recordings.items()
     }
     rows = []
     for material, tokens in chosen.items():
-        stand_ins = [t or p for t, p in zip(tokens, chosen[OWN], strict=True)]
-        predicted = predictions(
-            known, groups, base.features(*zip(*stand_ins, strict=True)), settings["synthesis"]
-        )
+        stand_ins = [t or p for t, p in zip(tokens, own, strict=True)]
+        asked = base.features([a for a, _ in stand_ins], [b for _, b in stand_ins])
+        predicted = predictions(known, groups, asked, settings["synthesis"])
         for i, (pair, ends) in enumerate(zip(pairs, tokens, strict=True)):
             if ends is None:
                 continue
@@ -553,9 +559,7 @@ def _room(base: Database, ends: tuple[int, int]) -> float:
         if 0 <= beside < len(base.tokens):
             other = base.tokens[beside].sign
             if other.recording is sign.recording:
-                gap = (
-                    other.start_s - sign.end_s if step == 1 else sign.start_s - other.end_s
-                )
+                gap = other.start_s - sign.end_s if step == 1 else sign.start_s - other.end_s
                 rooms.append(max(0.0, gap))
     return float(min(rooms))
 
@@ -600,9 +604,7 @@ def summary(rows: pd.DataFrame, corpus: Corpus, draws: int, seed: int) -> pd.Dat
                 values="value", dropna=False, observed=False, sort=False,
             )  # fmt: skip
             methods = METHODS[:1] if measure == DURATION_ERROR else METHODS
-            values = values.reindex(
-                columns=pd.MultiIndex.from_product([methods, (*MODELS, TRUE)])
-            )
+            values = values.reindex(columns=pd.MultiIndex.from_product([methods, (*MODELS, TRUE)]))
             known = values.dropna(axis=1, how="all")
             complete = known.dropna()
             rng = seeds.stream(seed, corpus.name, str(material), measure, "synthesis")

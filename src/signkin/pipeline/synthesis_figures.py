@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 from signkin import tables
 from signkin.coarticulation.duration import DurationModel, SurfaceDuration
 from signkin.coarticulation.retrieval import distances
-from signkin.coarticulation.synthesis import Sign, Transition, blend, fitted, interpolate
+from signkin.coarticulation.synthesis import (
+    METHODS,
+    Sign,
+    Transition,
+    blend,
+    fitted,
+    interpolate,
+)
 from signkin.errors import SignkinError
 from signkin.figures import skeletons, style
 from signkin.joints import HANDS
@@ -21,13 +28,12 @@ from signkin.kinematics.filters import lowpass
 from signkin.pipeline.naert2017 import Drawn
 from signkin.pipeline.synthesis import (
     CONTEXT_S,
-    METHODS,
     MODELS,
     OWN,
     Database,
+    captured,
     maker,
     usable,
-    with_durations,
 )
 from signkin.pipeline.utterance import Timing, distance_scale, timing
 
@@ -260,7 +266,7 @@ def _against_truth(base: Database, rows: pd.DataFrame, settings: Mapping[str, An
         for model in MODELS
     }
     durations = {m: d for m, d in durations.items() if np.isfinite(d)}
-    captured = take.positions[signs[0].last : signs[1].first + 1]
+    recorded = take.positions[signs[0].last : signs[1].first + 1]
     true_s = float(own["true_s"].iloc[0])
     by_error = sorted(durations, key=lambda m: abs(durations[m] - true_s))
     models = list(dict.fromkeys([by_error[0], by_error[-1]])) if by_error else []
@@ -270,7 +276,7 @@ def _against_truth(base: Database, rows: pd.DataFrame, settings: Mapping[str, An
     )
     hand = _busier(signs)
     panels, shown_postures, out = [], [], []
-    true_times, true_track = _track(signs, captured, CONTEXT_S)
+    true_times, true_track = _track(signs, recorded, CONTEXT_S)
     for i, model in enumerate(models):
         for k, share in enumerate(INSTANTS):
             ax = figure.add_subplot(grid[i, 2 * k : 2 * k + 2])
@@ -316,7 +322,7 @@ def _against_truth(base: Database, rows: pd.DataFrame, settings: Mapping[str, An
             times, speed = _speed(signs, made.motion.positions, hand, settings)
             curves[model] = (times, speed, made.steps / take.rate_hz)
             out += _speed_rows(times, speed, method, model, hand, unit)
-        times, speed = _speed(signs, captured, hand, settings)
+        times, speed = _speed(signs, recorded, hand, settings)
         out += _speed_rows(times, speed, method, "captured", hand, unit)
         skeletons.plot_transition_speed(curves, (times, speed, true_s), unit, ax=ax)
         ax.set_title(f"{method}", fontsize=8.5)
@@ -350,10 +356,7 @@ def model_durations(
     pairs = base.pairs()
     known, told = None, "no captured transitions: LINEAR is left out, SURFACE is the printed one"
     if pairs:
-        known = with_durations(
-            base.features([p.first for p in pairs], [p.second for p in pairs]),
-            np.array([p.true_s for p in pairs]),
-        )
+        known = captured(base, pairs)
         told = f"models learnt from the {len(pairs)} captured transitions of the corpus"
     source = asked if known is None else known
     geodesic = bool(np.isfinite(source.geodesic).any())
@@ -490,4 +493,3 @@ def _frame(base: Database, rows: list[dict[str, Any]]) -> pd.DataFrame:
     frame = pd.DataFrame(rows)
     frame["corpus"] = base.corpus.name
     return frame.reindex(columns=tables.TABLES["skeletons"].names(base.corpus.unit))
-

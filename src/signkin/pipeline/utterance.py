@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -42,11 +43,11 @@ from signkin.pipeline.stock import Place, placement
 from signkin.pipeline.synthesis import (
     Database,
     Token,
+    captured,
     database,
     maker,
     of_tokens,
     usable,
-    with_durations,
 )
 from signkin.recording import Recording
 
@@ -133,7 +134,7 @@ def retrieved(base: Database, glosses: Sequence[str], how: str) -> list[int]:
         return [slot[0] for slot in slots]
     scale = distance_scale(base)
     costs = []
-    for before, after in zip(slots, slots[1:], strict=False):
+    for before, after in itertools.pairwise(slots):
         cost = distances(base.candidates(before), base.candidates(after), scale)
         same = np.equal.outer(before, after)
         if not same.all():  # a gloss twice: another sign of it, where there is one
@@ -206,10 +207,7 @@ def timing(base: Database, model: str, settings: Mapping[str, Any], printed: np.
     pairs = base.pairs()
     usual = MeanDuration(float(np.mean(settings["bounds_s"])))
     if pairs:
-        known = with_durations(
-            base.features([p.first for p in pairs], [p.second for p in pairs]),
-            np.array([p.true_s for p in pairs]),
-        )
+        known = captured(base, pairs)
         usual = MeanDuration(float(known.duration_s.mean()))
         geodesic = bool(np.isfinite(known.geodesic).any())
         for name in dict.fromkeys((model, "linear")):
@@ -249,7 +247,8 @@ def make_utterance(
     (the file's skeleton); None: the canonical ones, from which distances always come.
     """
     whole = takes or base.recordings
-    signs, notes = [], []
+    signs: list[Sign] = []
+    notes = []
     for token in tokens:
         sign = base.tokens[token].sign
         sign = replace(sign, recording=whole[sign.recording.name])
@@ -340,9 +339,7 @@ def _transition(
     return made, row
 
 
-def _idle(
-    base: Database, beside: Sign, takes: Mapping[str, Recording]
-) -> tuple[Recording, int]:
+def _idle(base: Database, beside: Sign, takes: Mapping[str, Recording]) -> tuple[Recording, int]:
     """Return the idle posture: of corpus.yaml, else where the hands hang lowest in a take."""
     told = base.corpus.settings.get("synthesis", {}).get("idle")
     name = told["recording"] if told else beside.recording.name
@@ -420,7 +417,9 @@ def write_utterance(
     axes = {key: motion[key] for key in ("up", "right") if key in motion}
     positions, turns = in_file_axes(utterance.motion, unit=motion["unit"], **axes)
     assert turns is not None
-    write_bvh(path, hierarchy, channel_values(hierarchy, positions, turns), utterance.motion.rate_hz)
+    write_bvh(
+        path, hierarchy, channel_values(hierarchy, positions, turns), utterance.motion.rate_hz
+    )
     return path
 
 
