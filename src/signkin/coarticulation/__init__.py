@@ -8,7 +8,9 @@ from signkin.coarticulation.duration import (
     SurfaceDuration,
 )
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
+from signkin.coarticulation.retrieval import retrieve
 from signkin.coarticulation.segmentation import refine
+from signkin.coarticulation.synthesis import blend, interpolate
 
 __all__ = [
     "LinearDuration",
@@ -16,7 +18,10 @@ __all__ = [
     "SimpleBoundedDuration",
     "SimpleDuration",
     "SurfaceDuration",
+    "blend",
     "euclidean_distance",
     "geodesic_distance",
+    "interpolate",
     "refine",
+    "retrieve",
 ]
