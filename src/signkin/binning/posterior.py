@@ -12,7 +12,7 @@ not fit: the last inner boundary is at most at bin T - 2.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
@@ -202,28 +202,33 @@ def fit(
 
 
 def fit_many(
-    trajectories: Iterable[Floats],
+    trajectories: Sequence[Floats],
     orders: Sequence[int] = tuple(range(8)),
-    prior: Prior | None = None,
+    prior: Prior | Sequence[Prior] | None = None,
+    dt_s: float | Sequence[float] | None = None,
     workers: int = 1,
     names: Sequence[str] | None = None,
     **options: object,
 ) -> list[Posterior]:
     """Fit many trajectories, on `workers` cores; the results do not depend on how many.
 
-    The kernels run without Python's lock, so threads share the work. options: as for `fit`.
+    The kernels run without Python's lock, so threads share the work. prior, dt_s: one for all,
+    or one each. options: as for `fit`.
     """
-    items = list(trajectories)
-    called = [f"trajectory {i + 1}" for i in range(len(items))] if names is None else list(names)
+    n = len(trajectories)
+    priors = [prior] * n if prior is None or isinstance(prior, Prior) else list(prior)
+    steps = [dt_s] * n if dt_s is None or np.ndim(dt_s) == 0 else list(dt_s)  # type: ignore[arg-type]
+    called = [f"trajectory {i + 1}" for i in range(n)] if names is None else list(names)
 
-    def one(job: tuple[Floats, str]) -> Posterior:
-        return fit(job[0], orders, prior, name=job[1], **options)  # type: ignore[arg-type]
+    def one(job: tuple[Floats, Prior | None, float | None, str]) -> Posterior:
+        x, of_it, step, name = job
+        return fit(x, orders, of_it, dt_s=step, name=name, **options)  # type: ignore[arg-type]
 
-    jobs = zip(items, called, strict=True)
+    jobs = zip(trajectories, priors, steps, called, strict=True)
     if workers <= 1:
-        return [one(job) for job in jobs]
+        return [one(job) for job in jobs]  # type: ignore[arg-type]
     with ThreadPoolExecutor(max_workers=workers) as pool:
-        return list(pool.map(one, jobs))
+        return list(pool.map(one, jobs))  # type: ignore[arg-type]
 
 
 def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:
