@@ -84,13 +84,27 @@ def _pairs(p: Floats, t: Floats, most: float) -> tuple[NDArray[np.int64], NDArra
 def _hits(
     times: Floats, events: NDArray[np.int64], truth: Floats, true: NDArray[np.int64], most: float
 ) -> NDArray[np.int64]:
-    """Return the hits of many trajectories, whose times lie one after the other."""
+    """Return how many pairs `_pairs` would make of each of many trajectories.
+
+    times, truth: those of all trajectories, one after the other. Only the number of pairs is
+    wanted, and to give each boundary the earliest event still free makes the most.
+    """
     hits = np.zeros(len(events), dtype=np.int64)
     a = b = 0
     for i in range(len(events)):
-        c, d = a + events[i], b + true[i]
-        hits[i] = len(_pairs(np.sort(times[a:c]), truth[b:d], most)[0])
-        a, b = c, d
+        a_end, b_end = a + events[i], b + true[i]
+        ordered = np.sort(times[a:a_end])
+        p = 0
+        while p < len(ordered) and b < b_end:
+            if abs(ordered[p] - truth[b]) <= most:
+                hits[i] += 1
+                p += 1
+                b += 1
+            elif ordered[p] < truth[b]:
+                p += 1
+            else:
+                b += 1
+        a, b = a_end, b_end
     return hits
 
 
