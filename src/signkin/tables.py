@@ -65,6 +65,8 @@ TABLES: dict[str, Table] = {
             "a recording that was read",
             (
                 *_LEAD,
+                _text("sign", "gloss of a recording that holds one sign; empty where none does"),
+                Column("repetition", "", "repetition of that sign, from 1; empty where none"),
                 Column("frames", "", "number of frames"),
                 Column("rate_hz", "Hz", "frames a second"),
                 Column("duration_s", "s", "frames / rate"),
