@@ -217,7 +217,7 @@ def fit_many(
     """
     n = len(trajectories)
     priors = [prior] * n if prior is None or isinstance(prior, Prior) else list(prior)
-    steps = [dt_s] * n if dt_s is None or np.ndim(dt_s) == 0 else list(dt_s)  # type: ignore[arg-type]
+    steps = list(dt_s) if isinstance(dt_s, Sequence) else [dt_s] * n
     called = [f"trajectory {i + 1}" for i in range(n)] if names is None else list(names)
 
     def one(job: tuple[Floats, Prior | None, float | None, str]) -> Posterior:
@@ -226,9 +226,9 @@ def fit_many(
 
     jobs = zip(trajectories, priors, steps, called, strict=True)
     if workers <= 1:
-        return [one(job) for job in jobs]  # type: ignore[arg-type]
+        return [one(job) for job in jobs]
     with ThreadPoolExecutor(max_workers=workers) as pool:
-        return list(pool.map(one, jobs))  # type: ignore[arg-type]
+        return list(pool.map(one, jobs))
 
 
 def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:

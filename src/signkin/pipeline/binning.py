@@ -103,9 +103,7 @@ def chosen(names: Sequence[str], most: int) -> list[str]:
 class Study:
     """The runs of one corpus: a trajectory in, its posterior out, with the settings of a run."""
 
-    def __init__(
-        self, corpus: Corpus, settings: Mapping[str, Any], workers: int = 1
-    ) -> None:
+    def __init__(self, corpus: Corpus, settings: Mapping[str, Any], workers: int = 1) -> None:
         """Take the settings of the section `binning`."""
         self.corpus = corpus
         self.settings = settings
@@ -165,12 +163,14 @@ class Study:
         yield Data(source, FITTED_MAP, exact, order, truth, share)
 
 
-def rows_of(corpus: Corpus, settings: Mapping[str, Any], fitted: Fitted) -> Iterator[dict[str, Any]]:
+def rows_of(
+    corpus: Corpus, settings: Mapping[str, Any], fitted: Fitted
+) -> Iterator[dict[str, Any]]:
     """Yield the rows of binning.csv for one trajectory, one an order."""
     data, posterior = fitted.data, fitted.posterior
     source = data.source
     start = lead(corpus, source.recording)
-    entry = corpus.entry(source.recording)
+    entry = corpus.by_name[source.recording]
     known = data.dataset != RECORDED
     x = data.x - data.x.mean(axis=0)
     for i, order in enumerate(posterior.orders):
@@ -248,7 +248,6 @@ def study(
     ]
     rows = [row for one in (*fits, *runs.run(again)) for row in rows_of(corpus, settings, one)]
     return pd.DataFrame(rows), fits, runs.left_out
-
 
 
 # --- per-trajectory results ------------------------------------------------------------------

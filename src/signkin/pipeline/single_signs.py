@@ -311,4 +311,3 @@ def read_trajectories(paths: Iterable[str | Path]) -> list[Trajectory]:
                 )
             )  # fmt: skip
     return out
-
