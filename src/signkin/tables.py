@@ -419,6 +419,33 @@ TABLES: dict[str, Table] = {
                 Column("euclidean_m", "m", "distance between the postures at the true tags"),
             ),
         ),
+        Table(
+            "strokes",
+            "results/<corpus>/simulated/strokes.csv",
+            "a stroke of the right hand as the simulator made it (simulated single signs)",
+            (
+                _text("recording", "recording"),
+                Column("stroke", "", "place of the stroke in its recording, from 1"),
+                Column("onset_s", "s", "start of the stroke; the one before may not have ended"),
+                Column("offset_s", "s", "end of the stroke"),
+                Column("length_m", "m", "length of the stroke"),
+                Column("dx_m", "m", "displacement to the signer's right"),
+                Column("dy_m", "m", "displacement forward"),
+                Column("dz_m", "m", "displacement upward"),
+            ),
+        ),
+        Table(
+            "true_path",
+            "results/<corpus>/simulated/true_path.parquet",
+            "a frame of the right wrist without the sensor's noise (simulated single signs)",
+            (
+                _text("recording", "recording"),
+                Column("frame", "", "frame, from 0"),
+                Column("right_wrist_x_m", "m", "position to the signer's right"),
+                Column("right_wrist_y_m", "m", "position forward"),
+                Column("right_wrist_z_m", "m", "position upward"),
+            ),
+        ),
     )
 }
 
@@ -707,7 +734,10 @@ TABLES |= {
 
 
 def write_table(frame: pd.DataFrame, path: str | Path, name: str, unit: str = "m") -> None:
-    """Write a table whose columns are those of its kind, in their order; times to 1 ns."""
+    """Write a table whose columns are those of its kind, in their order.
+
+    A path that ends in .parquet gives Parquet with every bit; else CSV, times to 1 ns.
+    """
     expected = TABLES[name].names(unit)
     if list(frame.columns) != expected:
         missing = [column for column in expected if column not in frame.columns]
@@ -718,6 +748,9 @@ def write_table(frame: pd.DataFrame, path: str | Path, name: str, unit: str = "m
             place=f"table {name}",
             expected=listed(expected, 40),
         )
+    if Path(path).suffix == ".parquet":
+        frame.to_parquet(path, index=False)
+        return
     frame.to_csv(path, index=False, float_format="%.9g", lineterminator="\n")
 
 

@@ -34,6 +34,7 @@ REASONS = (EXPONENTS, SPEED, SHORT, DURATION, NOT_FOUND)
 NODES_HZ = 960.0  # the path is integrated at least this finely ...
 LOG_STEP = 0.1  # ... and where the logarithm of the curvature changes by more between nodes, finer
 HALVINGS = 5
+BLOCK = 256  # draws made at once
 FEWEST_FRAMES = 6  # of a quintic spline
 
 
@@ -166,7 +167,7 @@ def warp_to_power_law(
     active = active_part(speed(x, rate_hz), settings.active_share)
     frames = active.stop - active.start
     duration = (frames - 1) / rate_hz
-    spare = duration - settings.segments * settings.least_segment_s
+    spare = duration - settings.segments * (settings.least_segment_s + 1 / NODES_HZ)
     if spare <= 0 or frames < FEWEST_FRAMES:
         return LeftOut(
             reason=f"the active part of {duration:.3f} s has no room for {settings.segments} "
@@ -174,13 +175,15 @@ def warp_to_power_law(
         )
     path = _Path(x[active], rate_hz, settings)
     rejected = dict.fromkeys(REASONS, 0)
-    for draw in range(1, settings.most_draws + 1):
-        found: GroundTruth | _Timing | str = _draw(path, spare, rng, settings)
-        if isinstance(found, _Timing):
-            found = _sampled(path, found, active, rate_hz, settings)
-        if isinstance(found, GroundTruth):
-            return replace(found, draws=draw, rejected=_some(rejected))
-        rejected[str(found)] += 1
+    for first in range(0, settings.most_draws, BLOCK):
+        draws = _draw(path, spare, min(BLOCK, settings.most_draws - first), rng, settings)
+        for i, reason in enumerate(draws.rejected):
+            found: GroundTruth | _Timing | str = reason or _timing(path, draws, i, settings)
+            if isinstance(found, _Timing):
+                found = _sampled(path, found, active, rate_hz, settings)
+            if isinstance(found, GroundTruth):
+                return replace(found, draws=first + i + 1, rejected=_some(rejected))
+            rejected[str(found)] += 1
     return LeftOut(
         reason=f"none of {settings.most_draws} draws was accepted",
         draws=settings.most_draws,
@@ -221,6 +224,27 @@ class _Path:
         self.straight_share = (
             float(np.sum((straight[1:] + straight[:-1]) * self.steps) / 2) / length
         )
+        self.least_log_k = _Least(self.log_k)
+        self.least_minus_log_k = _Least(-self.log_k)
+        self.least_minus_speed = _Least(-self.speed)
+
+
+class _Least:
+    """Least value of any stretch of an array, many stretches at once (a sparse table)."""
+
+    def __init__(self, values: Floats) -> None:
+        levels = [values]
+        while 2 ** len(levels) <= len(values):
+            half = 2 ** (len(levels) - 1)
+            row = levels[-1].copy()
+            row[:-half] = np.minimum(row[:-half], row[half:])
+            levels.append(row)
+        self.table = np.array(levels)
+
+    def __call__(self, first: NDArray[np.int64], last: NDArray[np.int64]) -> Floats:
+        """Return the least of values[first..last], last included, for each pair."""
+        level = np.frexp(last - first + 1)[1] - 1
+        return np.minimum(self.table[level, first], self.table[level, last + 1 - 2**level])
 
 
 def _speed_curvature(first: BSpline, second: BSpline, time_s: Floats) -> tuple[Floats, Floats]:
@@ -240,8 +264,25 @@ def _speed_curvature(first: BSpline, second: BSpline, time_s: Floats) -> tuple[F
 
 
 @dataclass(frozen=True, eq=False)
+class _Draws:
+    """Draws of boundaries and exponents, D of them, and what can be said before any warping.
+
+    nodes: (D, N + 1), at which segments begin and end. beta: (D, N). log_gain: (D, N), log of
+    alpha if the first were 1, by continuity. log_top: (D, N), log of the top speeds then.
+    top_recorded: (D, N). rejected: a reason or an empty string each.
+    """
+
+    nodes: NDArray[np.int64]
+    beta: Floats
+    log_gain: Floats
+    log_top: Floats
+    top_recorded: Floats
+    rejected: list[str]
+
+
+@dataclass(frozen=True, eq=False)
 class _Timing:
-    """A draw: nodes at which segments begin and end, laws, and the warped time of every node."""
+    """A draw with the warped time of every node, from 0."""
 
     nodes: NDArray[np.int64]
     laws: tuple[PowerLaw, ...]
@@ -252,44 +293,57 @@ class _Timing:
     top_speeds_recorded: Floats
 
 
-def _draw(path: _Path, spare: float, rng: np.random.Generator, s: WarpSettings) -> _Timing | str:
-    """Draw boundaries and exponents; return the timing they make, or why it is rejected."""
-    cuts = np.sort(rng.uniform(0, spare, s.segments - 1))
-    beta = rng.uniform(s.least_exponent, s.most_exponent, s.segments)
-    if (np.abs(np.diff(beta)) <= s.least_exponent_step).any():
-        return EXPONENTS
-    ends = cuts + s.least_segment_s * np.arange(1, s.segments)
-    nodes = np.concatenate([[0], np.searchsorted(path.time_s, ends), [len(path.time_s) - 1]])
-    log_gain = np.zeros(s.segments)
-    at = path.log_k[nodes[1:-1]]
-    log_gain[1:] = np.cumsum(at * (beta[:-1] - beta[1:]))
-    # Warped time if the first gain were 1; it scales all of it, and is found after.
-    parts = list(pairwise(nodes))
+def _draw(path: _Path, spare: float, n: int, rng: np.random.Generator, s: WarpSettings) -> _Draws:
+    """Draw n sets of boundaries and exponents.
+
+    Boundaries are uniform over all partitions whose segments are longer than the least: the
+    order of uniform cuts of the time to spare.
+    """
+    cuts = np.sort(rng.uniform(0, spare, (n, s.segments - 1)), axis=1)
+    beta = rng.uniform(s.least_exponent, s.most_exponent, (n, s.segments))
+    alike = (np.abs(np.diff(beta)) <= s.least_exponent_step).any(axis=1)
+    least = s.least_segment_s + 1 / NODES_HZ  # boundaries are moved to the next node
+    inner = np.searchsorted(path.time_s, cuts + least * np.arange(1, s.segments))
+    nodes = np.pad(inner, ((0, 0), (1, 1)))
+    nodes[:, -1] = len(path.time_s) - 1
+    log_gain = np.zeros((n, s.segments))
+    log_gain[:, 1:] = np.cumsum(path.log_k[inner] * (beta[:, :-1] - beta[:, 1:]), axis=1)
+    first, last = nodes[:, :-1], nodes[:, 1:]
+    # The law is fastest where the curvature is least (or, with beta above 0, greatest).
+    straightest, sharpest = path.least_log_k(first, last), -path.least_minus_log_k(first, last)
+    log_top = log_gain + np.maximum(beta * straightest, beta * sharpest)
+    top_recorded = -path.least_minus_speed(first, last)
+    # Whatever the first gain, the segments' ratios to the recorded speeds keep their spread.
+    spread = np.ptp(log_top - np.log(top_recorded), axis=1)
+    hopeless = spread > 2 * np.log(s.most_speed_ratio)
+    rejected = np.where(alike, EXPONENTS, np.where(hopeless, SPEED, ""))
+    return _Draws(nodes, beta, log_gain, log_top, top_recorded, rejected.tolist())
+
+
+def _timing(path: _Path, draws: _Draws, i: int, s: WarpSettings) -> _Timing | str:
+    """Warp time as draw i wants it (2.4: d tau / dt = v kappa^-beta / alpha), or reject it."""
+    nodes, beta, log_gain = draws.nodes[i], draws.beta[i], draws.log_gain[i]
     tau = np.zeros(len(path.time_s))
-    tops, tops_recorded = np.empty((2, s.segments))
-    for i, (a, b) in enumerate(parts):
+    for j, (a, b) in enumerate(pairwise(nodes)):
         here = slice(a, b + 1)
-        rate = path.speed[here] * np.exp(-beta[i] * path.log_k[here] - log_gain[i])
+        rate = path.speed[here] * np.exp(-beta[j] * path.log_k[here] - log_gain[j])
         tau[a + 1 : b + 1] = tau[a] + np.cumsum((rate[1:] + rate[:-1]) / 2 * path.steps[a:b])
-        tops[i] = np.exp(beta[i] * path.log_k[here].min() + log_gain[i])
-        tops_recorded[i] = path.speed[here].max()
-    recorded = np.diff(path.time_s[nodes])
     if s.first_gain == "duration":
         gain = tau[-1] / path.time_s[-1]
     else:
         gain = path.speed[0] * np.exp(-beta[0] * path.log_k[0])
-    tau, tops = tau / gain, tops * gain
-    durations = np.diff(tau[nodes])
-    if _beyond(tops / tops_recorded, s.most_speed_ratio):
+    tau /= gain
+    durations, recorded = np.diff(tau[nodes]), np.diff(path.time_s[nodes])
+    tops = gain * np.exp(draws.log_top[i])
+    if _beyond(tops / draws.top_recorded[i], s.most_speed_ratio):
         return SPEED
     if (durations <= s.least_segment_s).any():
         return SHORT
     if _beyond(durations / recorded, s.most_duration_ratio):
         return DURATION
-    laws = tuple(
-        PowerLaw(float(gain * np.exp(g)), float(b)) for g, b in zip(log_gain, beta, strict=True)
-    )
-    return _Timing(nodes, laws, tau, durations, recorded, tops, tops_recorded)
+    alpha = gain * np.exp(log_gain)
+    laws = tuple(PowerLaw(float(a), float(b)) for a, b in zip(alpha, beta, strict=True))
+    return _Timing(nodes, laws, tau, durations, recorded, tops, draws.top_recorded[i])
 
 
 def _beyond(ratio: Floats, most: float) -> bool:
