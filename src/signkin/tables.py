@@ -549,6 +549,17 @@ TABLES |= {
             ),
         ),
         Table(
+            "fitted_truths",
+            "results/endres2013/<corpus>/fitted_truths.csv",
+            "a boundary of a fitted trajectory, which binning is to find again",
+            (
+                *_LEAD,
+                _DATASET,
+                _TRUE_ORDER,
+                Column("boundary_s", "s", "from the start of the movement"),
+            ),
+        ),
+        Table(
             "order_posteriors",
             "results/endres2013/<corpus>/order_posteriors.csv",
             "the order posterior of a group of trajectories, at one order (Fig. 3B, 6, 7, A1)",

@@ -46,11 +46,6 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if not corpus.tagged]
 
     @property
-    def single_signs(self) -> list[str]:
-        """Corpora of single signs, which Endres et al.'s analyses run on."""
-        return [name for name, corpus in self.corpora.items() if corpus.single_signs]
-
-    @property
     def continuous(self) -> list[str]:
         """The other corpora, whose wrists are binned as long series."""
         return [name for name, corpus in self.corpora.items() if not corpus.single_signs]

@@ -489,9 +489,10 @@ def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
     return FigureView(
         label="",
         title=titled("Wrist speed", sources.corpora[name]),
-        caption=f"Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
-        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, half "
-        f"gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to refine.",
+        caption="Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
+        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, "
+        f"half gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to "
+        "refine.",
         svg=base.with_suffix(".svg"),
         files=[base.with_suffix(s) for s in (".svg", ".pdf")],
     )
