@@ -108,7 +108,7 @@ def test_auslan_speeds_are_human_at_the_declared_rate_and_not_at_the_donors(ausl
 
 
 def test_isl_has_five_signs_of_ten_signers_in_nine_repetitions(isl):
-    corpus, folder, found = isl
+    corpus, _, found = isl
     assert len(found.recordings) == 450
     assert not found.excluded
     signs = {row["sign"] for row in found.about}
