@@ -14,7 +14,7 @@ import yaml
 import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
-from signkin.pipeline.corpora_report import SIGN_COLUMNS, design, origin, titled
+from signkin.pipeline.corpora_report import design, first_rows, origin, sign_columns, titled
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -460,22 +460,22 @@ def _data_section(sources: Sources) -> Section:
 
 
 def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
+    shown, told = first_rows(frame)
     return TableView(
         label="",
         title=titled("Recordings", sources.corpora[name]),
-        caption=_about(sources, name, frame),
-        frame=frame,
+        caption=_about(sources, name, frame) + told,
+        frame=shown,
         columns={
             "recording": ("recording", ""),
             "signer": ("signer", ""),
-            **(SIGN_COLUMNS if sources.corpora[name].single_signs else {}),
+            **sign_columns(sources.corpora[name]),
             "frames": ("frames", "d"),
             "rate_hz": ("rate (Hz)", "g"),
             "duration_s": ("length (s)", ".2f"),
             "unit": ("unit", ""),
             "joints": ("joints", "d"),
             "orientations": ("orientations", ""),
-            "signs": ("signs", "d"),
         },
         file=sources.shared(name, "recordings"),
         most=6,
