@@ -15,7 +15,7 @@ from signkin.binning import fit
 
 
 def resident_mb(what: str) -> float:
-    """Return VmRSS (now) or VmHWM (the peak since its reset); the process's peak where there is no /proc."""
+    """Return VmRSS (now) or VmHWM (peak since its reset); without /proc, the process's peak."""
     status = Path("/proc/self/status")
     if not status.exists():
         size = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # bytes on macOS
