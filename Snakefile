@@ -10,9 +10,11 @@ pathvars:
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/simulate.smk"
 include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
+include: "workflow/rules/binning.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -22,3 +24,4 @@ rule all:
     input:
         "<results>/report/index.html",
         rules.naert2017.input,
+        rules.endres2013.input,
