@@ -70,7 +70,9 @@ def median_shift(found, sign, axis):
     shifts = []
     for row, recording in zip(found.about, found.recordings, strict=True):
         if row["sign"] == sign:
-            away = recording.track("right_wrist") - recording.track("right_wrist")[-10:].mean(axis=0)
+            away = recording.track("right_wrist") - recording.track("right_wrist")[-10:].mean(
+                axis=0
+            )
             shifts.append(away[np.linalg.norm(away, axis=1).argmax(), axis])
     return np.median(shifts)
 
