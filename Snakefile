@@ -10,10 +10,12 @@ pathvars:
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/simulate.smk"
 include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
 include: "workflow/rules/synthesis.smk"
+include: "workflow/rules/binning.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -24,3 +26,4 @@ rule all:
         "<results>/report/index.html",
         rules.naert2017.input,
         rules.syntheses.input,
+        rules.endres2013.input,

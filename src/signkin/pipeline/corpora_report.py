@@ -1,0 +1,49 @@
+"""What the report says of corpora that have no section of their own."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from signkin.corpus import Corpus
+
+MOST_ROWS = 300  # of a table of recordings in the page; the file has all
+
+
+def sign_columns(corpus: Corpus) -> dict[str, tuple[str, str]]:
+    """Return the columns of a table of recordings that tell its signs."""
+    if corpus.single_signs:
+        return {"sign": ("sign", ""), "repetition": ("repetition", "d")}
+    return {"signs": ("signs", "d")}
+
+
+def first_rows(frame: pd.DataFrame) -> tuple[pd.DataFrame, str]:
+    """Return the rows that the page has, and what its caption says of the others."""
+    if len(frame) <= MOST_ROWS:
+        return frame, ""
+    told = f" The page has the first {MOST_ROWS} rows, the file all {len(frame)}."
+    return frame.head(MOST_ROWS), told
+
+
+def titled(what: str, corpus: Corpus) -> str:
+    """Return the title of a corpus's table or figure, which says where it is simulated."""
+    return f"{what}: {corpus.name}" + (" (simulated)" if corpus.simulator else "")
+
+
+def origin(corpus: Corpus) -> str:
+    """Return what a corpus is, where it comes from and its licence, for a caption."""
+    about = corpus.settings
+    parts = [str(about["title"]) + ".", str(about.get("description", ""))]
+    parts.append(f"Licence: {about['licence']}. Source: {about['citation']}.")
+    return " ".join(part for part in parts if part)
+
+
+def design(about: pd.DataFrame) -> str:
+    """Return how many signs, signers and repetitions a table `recordings` has, as a sentence."""
+    cells = about.groupby(["signer", "sign"]).size()
+    signs, signers = about["sign"].nunique(), about["signer"].nunique()
+    least, most = int(cells.min()), int(cells.max())
+    times = f"{most} times" if least == most else f"{least} to {most} times"
+    by = "one signer" if signers == 1 else f"each of {signers} signers"
+    told = f"One sign a recording: {signs} signs, made {times} by {by}"
+    lacking = signs * signers - len(cells)
+    return told + (f"; {lacking} signs of a signer are lacking." if lacking else ".")
