@@ -167,7 +167,7 @@ def _rate(times: np.ndarray, column: str) -> float:
     return 1.0 / mean
 
 
-def write_wide_csv(path: Path, recording: Recording) -> None:
+def write_positions(path: Path, recording: Recording) -> None:
     """Write positions as `read_wide_csv` reads them; gaps are empty cells.
 
     Columns: time_s, then `<joint>_x_m`, `_y_m`, `_z_m` (or `_px`): right, forward, up.

@@ -16,7 +16,7 @@ from signkin.corpus import (
     data_folder,
     load_corpora,
 )
-from signkin.errors import SignkinError
+from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
 
 

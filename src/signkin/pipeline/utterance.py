@@ -37,7 +37,7 @@ from signkin.io import read_recording
 from signkin.io.bvh import channel_values, parse_bvh, write_bvh
 from signkin.io.registry import in_file_axes
 from signkin.io.store import read_recordings
-from signkin.io.wide_csv import write_wide_csv
+from signkin.io.wide_csv import write_positions
 from signkin.pipeline.found import found_signs
 from signkin.pipeline.stock import Place, placement
 from signkin.pipeline.synthesis import (
@@ -408,7 +408,7 @@ def write_utterance(
     """
     if not is_bvh(corpus):
         path = stem.with_name(f"{stem.name}.csv")
-        write_wide_csv(path, utterance.motion)
+        write_positions(path, utterance.motion)
         return path
     path = stem.with_name(f"{stem.name}.bvh")
     entry = next(e for e in corpus.entries if e.recording == recording)
