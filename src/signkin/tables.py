@@ -392,10 +392,16 @@ TABLES: dict[str, Table] = {
                 *(
                     Column(f"{side}_{kind}", unit, meaning.format(which))
                     for kind, unit, meaning in (
-                        ("linear_speed_{u}_per_s", "m/s or px/s",
-                         "mean speed over joints and frames of the sign {}, low-passed"),
-                        ("angular_speed_rad_per_s", "rad/s",
-                         "same of the orientations, the angle as eq. 1 has it (half)"),
+                        (
+                            "linear_speed_{u}_per_s",
+                            "m/s or px/s",
+                            "mean speed over joints and frames of the sign {}, low-passed",
+                        ),
+                        (
+                            "angular_speed_rad_per_s",
+                            "rad/s",
+                            "same of the orientations, the angle as eq. 1 has it (half)",
+                        ),
                     )
                     for side, which in (("previous", "before"), ("next", "after"))
                 ),
@@ -410,8 +416,10 @@ TABLES: dict[str, Table] = {
             "note says what is missing",
             (
                 _text("corpus", "corpus"),
-                _text("question", "type (four digits), hands, symmetry, change of hands (Fig. 10) "
-                      "or distance"),
+                _text(
+                    "question",
+                    "type (four digits), hands, symmetry, change of hands (Fig. 10) or distance",
+                ),
                 _text("outliers", "none (the rule finds none), kept or left out"),
                 _text("test", "test; `in words`: what follows from the others"),
                 _text("comparison", "what is compared with what"),
@@ -420,8 +428,11 @@ TABLES: dict[str, Table] = {
                 Column("df1", "", "degrees of freedom, of the numerator"),
                 Column("df2", "", "degrees of freedom, of the error"),
                 Column("p", "", "p, adjusted for all pairs in post-hoc tests"),
-                _text("effect_name", "kind of the effect size; (partial) eta and omega squared "
-                      "estimate the same share of variance, and share its interval"),
+                _text(
+                    "effect_name",
+                    "kind of the effect size; (partial) eta and omega squared "
+                    "estimate the same share of variance, and share its interval",
+                ),
                 Column("effect", "see effect_name", "effect size"),
                 Column("effect_low", "see effect_name", "its interval (config: durations.alpha)"),
                 Column("effect_high", "see effect_name", "its interval"),
@@ -459,8 +470,11 @@ TABLES: dict[str, Table] = {
             "a duration model and how it was tested (Naert et al. 2017, section 5.2)",
             (
                 _text("corpus", "corpus"),
-                _text("model", "MEAN (baseline), SIMPLE, SIMPLE_BOUNDED, LINEAR, SURFACE or "
-                      "SURFACE_PRINTED (theta as printed, nothing learnt)"),
+                _text(
+                    "model",
+                    "MEAN (baseline), SIMPLE, SIMPLE_BOUNDED, LINEAR, SURFACE or "
+                    "SURFACE_PRINTED (theta as printed, nothing learnt)",
+                ),
                 _text("evaluation", "in_sample, leave_one_out or leave_one_recording_out"),
                 Column("n", "", "transitions, the same for all models of a corpus"),
                 Column("mean_error_s", "s", "mean absolute error (eq. 5)"),

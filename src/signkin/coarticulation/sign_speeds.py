@@ -19,7 +19,7 @@ from signkin.recording import Recording
 
 SIDES = ("previous", "next")
 ONE_FRAME = "a sign of one frame has no speed"
-NO_ORIENTATIONS = "no orientations: no angular speed"
+NO_ORIENTATIONS = "no orientations in the sign: no angular speed"
 
 
 def sign_speeds(
