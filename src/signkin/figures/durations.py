@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from signkin.figures.style import ACCENT, LEFT, NEUTRAL, RIGHT
@@ -79,11 +80,14 @@ def plot_surface(
                 g[held], e[held], d[held], s=9, color=colour, marker=marker, depthshade=False,
                 lw=0, label=name,
             )  # fmt: skip
-    ax.set(xlabel="geodesic (rad)", ylabel=f"Euclidean ({unit})")
-    ax.set_zlabel(DURATION)  # type: ignore[attr-defined]
-    ax.view_init(elev=18, azim=-125)  # type: ignore[attr-defined]
-    ax.set_box_aspect((1, 1, 0.85), zoom=0.84)  # type: ignore[call-arg, arg-type]
-    ax.legend(loc="upper left", bbox_to_anchor=(0.0, 1.02), handletextpad=0.2)
+    ax.set_xlabel("geodesic distance (rad)", labelpad=-2)
+    ax.set_ylabel(f"Euclidean distance ({unit})", labelpad=-1)
+    ax.set_zlabel(DURATION, labelpad=-4)  # type: ignore[attr-defined]
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):  # type: ignore[attr-defined]
+        axis.set_major_locator(MaxNLocator(4))
+        axis.set_tick_params(pad=-2, labelsize=7)
+    ax.view_init(elev=16, azim=-128)  # type: ignore[attr-defined]
+    ax.legend(loc="upper left", bbox_to_anchor=(0.02, 1.06), handletextpad=0.2)
     return ax
 
 

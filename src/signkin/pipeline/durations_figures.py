@@ -46,9 +46,10 @@ def draw_predictions(predictions: pd.DataFrame) -> Figure:
 
 def draw_surface(points: pd.DataFrame, theta: np.ndarray | None, unit: str) -> Figure:
     """Draw Fig. 11: the surface in space with its transitions, and its levels from above."""
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.5))
-    grid = figure.add_gridspec(1, 2, width_ratios=(1.05, 1))
-    space = figure.add_subplot(grid[0], projection="3d")
+    # Placed by hand: the automatic layout does not see the labels of axes in space.
+    figure = plt.figure(figsize=(style.WIDTH_IN, 3.5), layout="none")
+    space = figure.add_axes((0.03, 0.03, 0.44, 0.88), projection="3d")
     durations.plot_surface(points, theta, unit, ax=space)
-    durations.plot_levels(points, theta, unit, ax=figure.add_subplot(grid[1]))
+    levels = figure.add_axes((0.57, 0.14, 0.40, 0.80))
+    durations.plot_levels(points, theta, unit, ax=levels)
     return figure

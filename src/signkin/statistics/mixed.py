@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 import statsmodels.formula.api as smf
 from scipy import stats
-from statsmodels.regression.mixed_linear_model import MixedLMResultsWrapper
-from statsmodels.tools.sm_exceptions import ConvergenceWarning
 
 from signkin.statistics.findings import Finding, untestable
 
 TEST = "mixed model, likelihood ratio"
+EDGE = 1e-5  # a gain in log-likelihood that is none
 FEW_LEVELS = 5  # below it a variance between levels is hardly known
 
 
@@ -42,20 +42,18 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
     try:
         full = _fit("duration_s ~ C(group)", data, outer, recording, caught)
         null = _fit("duration_s ~ 1", data, outer, recording, caught)
-    except (np.linalg.LinAlgError, ValueError) as error:
+    except np.linalg.LinAlgError as error:
         return [untestable(TEST, comparison, n, f"the fit fails ({error})")]
-    ratio = max(0.0, 2 * float(full.llf - null.llf))
+    if full.variances["transition (within)"] <= 1e-20:
+        return [untestable(TEST, comparison, n, "all durations within the groups are equal")]
+    ratio = max(0.0, 2 * (full.llf - null.llf))
     df = data["group"].nunique() - 1
-    within = float(full.scale)
-    between = {outer: float(np.asarray(full.cov_re)[0, 0])}
-    if recording:
-        between["recording"] = float(full.vcomp[0])
     told += sorted(caught)
     told.append("no effect size: see the variances")
     out = [Finding(TEST, comparison, "chi squared", ratio, df, p=float(stats.chi2.sf(ratio, df)),
                    n=n, note="; ".join(told))]  # fmt: skip
-    for name, variance in {**between, "transition (within)": within}.items():
-        total = within + sum(between.values())
+    total = sum(full.variances.values())
+    for name, variance in full.variances.items():
         out.append(
             Finding(
                 "mixed model, random effect", f"{comparison}: {name}", "SD (s)",
@@ -68,23 +66,34 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
     return out
 
 
-def _fit(
-    formula: str, data: pd.DataFrame, outer: str, inner: str, caught: set[str]
-) -> MixedLMResultsWrapper:
+@dataclass(frozen=True)
+class _Fit:
+    """The log-likelihood of a fit, and its variances by where they come from."""
+
+    llf: float
+    variances: dict[str, float]
+
+
+def _fit(formula: str, data: pd.DataFrame, outer: str, inner: str, caught: set[str]) -> _Fit:
     extra = {"vc_formula": {inner: f"0 + C({inner})"}} if inner else {}
+    model = smf.mixedlm(formula, data, groups=outer, re_formula="1", **extra)
+    plain = smf.ols(formula, data).fit()
     with warnings.catch_warnings(record=True) as issued:
         warnings.simplefilter("always")
-        fit = smf.mixedlm(formula, data, groups=outer, re_formula="1", **extra).fit(
-            reml=False, method=["lbfgs", "bfgs", "cg"]
-        )
-    for warning in issued:
-        if issubclass(warning.category, ConvergenceWarning):
-            text = str(warning.message).lower()
-            caught.add(
-                "a random effect has no variance (on the edge of what is possible)"
-                if "boundary" in text or "singular" in text
-                else "the optimiser reported trouble; see the log"
-            )
-    if not np.isfinite(fit.llf):
-        raise ValueError("no finite likelihood")
-    return fit
+        # Where a variance is 0 exactly, the likelihood comes out infinite; Powell stops short.
+        for method in ("lbfgs", "powell"):
+            fit = model.fit(reml=False, method=method)
+            if np.isfinite(fit.llf):
+                break
+    if any("converge" in str(w.message).lower() for w in issued):
+        caught.add("the optimiser did not converge everywhere")
+    within = "transition (within)"
+    # Without random effects the model is least squares: no fit may be worse.
+    if not np.isfinite(fit.llf) or fit.llf <= plain.llf + EDGE:
+        caught.add("signers and recordings add nothing: their variance is 0, as least squares")
+        nothing = dict.fromkeys(filter(None, (outer, inner)), 0.0)
+        return _Fit(float(plain.llf), {**nothing, within: float(plain.ssr / plain.nobs)})
+    between = {outer: float(np.asarray(fit.cov_re)[0, 0])}
+    if inner:
+        between[inner] = float(fit.vcomp[0])
+    return _Fit(float(fit.llf), {**between, within: float(fit.scale)})

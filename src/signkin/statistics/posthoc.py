@@ -18,11 +18,11 @@ def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
     """Return every pair of groups by Tukey's HSD and by Games-Howell.
 
     p is adjusted for all pairs of the test. The statistic is the difference of the means in s,
-    the first less the second. Groups of one value have no variance for Games-Howell.
+    the first less the second. Groups of one value are left out; told in the note.
     """
     out: list[Finding] = []
     for test, equal in PAIRWISE.items():
-        kept = {k: g for k, g in groups.items() if len(g) > (0 if equal else 1)}
+        kept = {k: g for k, g in groups.items() if len(g) > 1}
         if not equal:
             kept = {k: g for k, g in kept.items() if np.ptp(g) > 0}
         left = [k for k in groups if k not in kept]

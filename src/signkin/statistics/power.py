@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy import stats
-from statsmodels.stats.power import FTestPowerF2, TTestIndPower
+from scipy.optimize import brentq
+from statsmodels.stats.power import TTestIndPower
 
 from signkin.statistics.effects import pooled_sd
 from signkin.statistics.findings import Finding, Groups, untestable
@@ -15,21 +18,23 @@ def power_of_f(effect_f: float, df1: float, df2: float, n: int, alpha: float) ->
     return float(stats.ncf.sf(stats.f.isf(alpha, df1, df2), df1, df2, n * effect_f**2))
 
 
-def smallest_f(df1: float, df2: float, alpha: float, power: float) -> float:
-    """Return the smallest Cohen's f that an F test finds with the given power."""
-    f2 = FTestPowerF2().solve_power(
-        effect_size=None, df_num=df1, df_denom=df2, alpha=alpha, power=power
-    )
-    return float(np.sqrt(np.squeeze(f2)))
+def smallest_f(df1: float, df2: float, n: int, alpha: float, power: float) -> float:
+    """Return the smallest Cohen's f that an F test of n values finds with the given power."""
+    return _least_effect(lambda f: power_of_f(f, df1, df2, n, alpha), power)
 
 
 def smallest_d(n1: int, n2: int, alpha: float, power: float) -> float:
     """Return the smallest Cohen's d that a two-sided t test of two groups finds."""
-    return float(
-        TTestIndPower().solve_power(
-            effect_size=None, nobs1=n1, ratio=n2 / n1, alpha=alpha, power=power
-        )
-    )
+    test = TTestIndPower()
+    return _least_effect(lambda d: float(test.power(d, n1, alpha, ratio=n2 / n1)), power)
+
+
+def _least_effect(power_of: Callable[[float], float], wanted: float) -> float:
+    """Solve power(effect) = wanted; statsmodels' own solver now and then returns no solution."""
+    high = 0.01
+    while power_of(high) < wanted:
+        high *= 1.5
+    return float(brentq(lambda effect: power_of(effect) - wanted, 1e-9, high))
 
 
 def sensitivity(groups: Groups, comparison: str, alpha: float, power: float) -> list[Finding]:
@@ -42,7 +47,7 @@ def sensitivity(groups: Groups, comparison: str, alpha: float, power: float) -> 
     n = sum(map(len, filled))
     if len(filled) < 2 or n - len(filled) < 1:
         return [untestable(test, comparison, n, "fewer than two groups, or one value in each")]
-    f = smallest_f(len(filled) - 1, n - len(filled), alpha, power)
+    f = smallest_f(len(filled) - 1, n - len(filled), n, alpha, power)
     sd = pooled_sd(*filled)
     return [
         Finding(
