@@ -48,7 +48,7 @@ def draw_surface(points: pd.DataFrame, theta: np.ndarray | None, unit: str) -> F
     """Draw Fig. 11: the surface in space with its transitions, and its levels from above."""
     # Placed by hand: the automatic layout does not see the labels of axes in space.
     figure = plt.figure(figsize=(style.WIDTH_IN, 3.5), layout="none")
-    space = figure.add_axes((0.02, 0.05, 0.47, 0.86), projection="3d")
+    space = figure.add_axes((0.045, 0.05, 0.45, 0.86), projection="3d")
     durations.plot_surface(points, theta, unit, ax=space)
     levels = figure.add_axes((0.585, 0.14, 0.365, 0.80))
     durations.plot_levels(points, theta, unit, ax=levels)

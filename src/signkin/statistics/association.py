@@ -61,9 +61,13 @@ def correlations(
             continue
         units, unit = resampled_units(recordings, least_recordings)
 
-        def of(rows: Rows, function: Callable[..., tuple[float, float]] = function) -> float:
+        def of(rows: Rows, ranks: bool = test == "Spearman") -> float:
             x, y = distance[rows], duration[rows]
-            return float("nan") if np.ptp(x) == 0 or np.ptp(y) == 0 else float(function(x, y)[0])
+            if np.ptp(x) == 0 or np.ptp(y) == 0:
+                return float("nan")
+            if ranks:
+                x, y = stats.rankdata(x), stats.rankdata(y)
+            return float(np.corrcoef(x, y)[0, 1])
 
         low, high = bootstrap(of, units, draws, alpha, rng)
         r, p = function(distance, duration)

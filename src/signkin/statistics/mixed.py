@@ -14,6 +14,7 @@ from signkin.statistics.findings import Finding, untestable
 
 TEST = "mixed model, likelihood ratio"
 EDGE = 1e-5  # a gain in log-likelihood that is none
+WITHIN = "transition (within)"
 FEW_LEVELS = 5  # below it a variance between levels is hardly known
 
 
@@ -39,12 +40,9 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
     few = [k for k in filter(None, (outer, recording)) if counts[k] < FEW_LEVELS]
     told += [f"{counts[k]} {k}s only: their variance is hardly known" for k in few]
     caught: set[str] = set()
-    try:
-        full = _fit("duration_s ~ C(group)", data, outer, recording, caught)
-        null = _fit("duration_s ~ 1", data, outer, recording, caught)
-    except np.linalg.LinAlgError as error:
-        return [untestable(TEST, comparison, n, f"the fit fails ({error})")]
-    if full.variances["transition (within)"] <= 1e-20:
+    full = _fit("duration_s ~ C(group)", data, outer, recording, caught)
+    null = _fit("duration_s ~ 1", data, outer, recording, caught)
+    if full.variances[WITHIN] <= 1e-20:
         return [untestable(TEST, comparison, n, "all durations within the groups are equal")]
     ratio = max(0.0, 2 * (full.llf - null.llf))
     df = data["group"].nunique() - 1
@@ -75,25 +73,28 @@ class _Fit:
 
 
 def _fit(formula: str, data: pd.DataFrame, outer: str, inner: str, caught: set[str]) -> _Fit:
-    extra = {"vc_formula": {inner: f"0 + C({inner})"}} if inner else {}
-    model = smf.mixedlm(formula, data, groups=outer, re_formula="1", **extra)
+    """Return the best of the nested fits: least squares, the outer effect, the inner, both.
+
+    A variance of exactly 0 makes statsmodels' likelihood infinite or its matrix singular; the
+    model without that effect is then the maximum.
+    """
     plain = smf.ols(formula, data).fit()
-    with warnings.catch_warnings(record=True) as issued:
-        warnings.simplefilter("always")
-        # Where a variance is 0 exactly, the likelihood comes out infinite; Powell stops short.
-        for method in ("lbfgs", "powell"):
-            fit = model.fit(reml=False, method=method)
-            if np.isfinite(fit.llf):
-                break
-    if any("converge" in str(w.message).lower() for w in issued):
-        caught.add("the optimiser did not converge everywhere")
-    within = "transition (within)"
-    # Without random effects the model is least squares: no fit may be worse.
-    if not np.isfinite(fit.llf) or fit.llf <= plain.llf + EDGE:
-        caught.add("signers and recordings add nothing: their variance is 0, as least squares")
-        nothing = dict.fromkeys(filter(None, (outer, inner)), 0.0)
-        return _Fit(float(plain.llf), {**nothing, within: float(plain.ssr / plain.nobs)})
-    between = {outer: float(np.asarray(fit.cov_re)[0, 0])}
-    if inner:
-        between[inner] = float(fit.vcomp[0])
-    return _Fit(float(fit.llf), {**between, within: float(fit.scale)})
+    nothing = dict.fromkeys(filter(None, (outer, inner)), 0.0)
+    best = _Fit(float(plain.llf), {**nothing, WITHIN: float(plain.ssr / plain.nobs)})
+    plans: list[tuple[str, str]] = [(outer, ""), (inner, ""), (outer, inner)]
+    for group, nested in plans if inner else plans[:1]:
+        extra = {"vc_formula": {nested: f"0 + C({nested})"}} if nested else {}
+        model = smf.mixedlm(formula, data, groups=group, re_formula="1", **extra)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # all of them tell of a variance near 0: told below
+            try:
+                fit = model.fit(reml=False, method="lbfgs")
+            except np.linalg.LinAlgError:  # singular on the way: a variance near 0 again
+                continue
+        if np.isfinite(fit.llf) and fit.llf > best.llf + EDGE:
+            between = {**nothing, group: float(np.asarray(fit.cov_re)[0, 0])}
+            if nested:
+                between[nested] = float(fit.vcomp[0])
+            best = _Fit(float(fit.llf), {**between, WITHIN: float(fit.scale)})
+    caught |= {f"no variance between {name}s" for name in nothing if not best.variances[name]}
+    return best

@@ -34,14 +34,9 @@ def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
             out.append(untestable(test, comparison, n, reason))
             continue
         found = stats.tukey_hsd(*kept.values(), equal_var=equal)
-        interval = found.confidence_interval(1 - alpha)
         values = list(kept.values())
         for (i, a), (j, b) in combinations(enumerate(kept), 2):
             d = cohens_d(values[i], values[j], alpha)
-            told = (
-                f"difference {1 - alpha:.0%} interval {interval.low[i, j]:.4f} to "
-                f"{interval.high[i, j]:.4f} s, for all pairs together"
-            )
             without = "" if np.isfinite(d[0]) else "no d: the two groups have no variance"
             out.append(
                 Finding(
@@ -49,7 +44,7 @@ def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
                     float(found.statistic[i, j]), p=float(found.pvalue[i, j]),
                     effect_name="Cohen's d", effect=d[0], effect_low=d[1], effect_high=d[2],
                     n=len(values[i]) + len(values[j]),
-                    note="; ".join(filter(None, (told, without, note))),
+                    note="; ".join(filter(None, (without, note))),
                 )
             )  # fmt: skip
     return out
