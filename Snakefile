@@ -15,6 +15,7 @@ include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
 include: "workflow/rules/binning.smk"
+include: "workflow/rules/durations.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -25,3 +26,4 @@ rule all:
         "<results>/report/index.html",
         rules.naert2017.input,
         rules.endres2013.input,
+        rules.naert2017_durations.input,
