@@ -16,6 +16,7 @@ include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
 include: "workflow/rules/synthesis.smk"
 include: "workflow/rules/binning.smk"
+include: "workflow/rules/durations.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -27,3 +28,4 @@ rule all:
         rules.naert2017.input,
         rules.syntheses.input,
         rules.endres2013.input,
+        rules.naert2017_durations.input,

@@ -56,7 +56,7 @@ def spoken(libras, settings, tmp_path_factory):
     corpus, folder, base, _ = libras
     tokens = retrieved(base, ["BOCA", "ENTENDER"], "chain")
     takes = whole_takes(corpus, folder, base, ["boca", "entender"], align=True)
-    clock = timing(base, "surface", settings["synthesis"], PRINTED)
+    clock = timing(base, "surface", settings["durations"], PRINTED)
     made = make_utterance(base, tokens, clock, settings["synthesis"], takes)
     path = write_utterance(made, corpus, folder, "boca", tmp_path_factory.mktemp("bvh") / "said")
     return made, path
@@ -126,7 +126,7 @@ def test_both_takes_are_told_to_differ_in_their_skeletons(spoken):
 def test_marker_like_recordings_come_as_tables_that_read_back(dgs, settings, tmp_path):
     corpus, folder, base, _ = dgs
     tokens = retrieved(base, ["CAT3", "BIRD1", "HOTEL1*"], "chain")
-    clock = timing(base, "surface", settings["synthesis"], PRINTED)
+    clock = timing(base, "surface", settings["durations"], PRINTED)
     made = make_utterance(base, tokens, clock, settings["synthesis"])
     path = write_utterance(made, corpus, folder, "1984189", tmp_path / "said")
     again = read_recording(path, unit="m", time_column="time_s", joints=column_map(made.motion))

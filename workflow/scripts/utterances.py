@@ -12,13 +12,13 @@ with job(snakemake):
     base, found = load_database(
         corpus, source.recordings, source.intervals, source.excluded, params.settings
     )
-    settings = params.settings["synthesis"]
+    wanted = params.settings["synthesis"]["utterances"]
     parts = utterance_files(
         corpus,
         Path(params.data),
         base,
-        {u["name"]: u["glosses"] for u in settings["utterances"] if u["corpus"] == corpus.name},
-        settings,
+        {u["name"]: u["glosses"] for u in wanted if u["corpus"] == corpus.name},
+        params.settings,
         printed_theta(source.constants),
         Path(out.folder),
     )

@@ -62,6 +62,12 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if not corpus.single_signs]
 
     @property
+    def oriented(self) -> list[str]:
+        """Tagged corpora with orientations, recorded or made, which a duration surface needs."""
+        motion = {name: self.corpora[name].settings["motion"] for name in self.tagged}
+        return [name for name, m in motion.items() if m.get("orientations", "none") != "none"]
+
+    @property
     def with_elan(self) -> list[str]:
         """Corpora whose tags are ELAN files, which refinement writes back."""
         return [

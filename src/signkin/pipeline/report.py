@@ -16,6 +16,7 @@ from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.pipeline import synthesis_report
 from signkin.pipeline.corpora_report import design, first_rows, origin, sign_columns, titled
+from signkin.pipeline.durations_report import duration_views
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -204,6 +205,11 @@ def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> S
             )
         if identity == "fig06":
             views += _refinement(sources, name)
+        if identity == "fig11":
+            views += duration_views(
+                sources.naert(name, ""), sources.config, sources.constants, exhibit,
+                corpus.simulator is not None,
+            )  # fmt: skip
     views += _left_out(sources, name)
     views.append(_sign_types(sources, name))
     views += synthesis_report.views(sources.naert(name, ""), corpus.unit)

@@ -61,7 +61,7 @@ def speak(
         plan.folders[corpus],
         base,
         {name: glosses},
-        config["synthesis"],
+        config,
         printed_theta(plan.papers / "naert2017" / "constants.csv"),
         out,
     )

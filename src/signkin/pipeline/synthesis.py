@@ -12,10 +12,12 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from signkin import seeds, tables
+from signkin.annotation import Interval
 from signkin.coarticulation import duration
 from signkin.coarticulation.duration import DurationModel, Transitions
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.retrieval import Candidates, Scale, best_chain, distances
+from signkin.coarticulation.sign_speeds import sign_speeds
 from signkin.coarticulation.synthesis import (
     METHODS,
     Sign,
@@ -31,7 +33,12 @@ from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.kinematics.rotations import parent_relative
-from signkin.pipeline.coarticulation import filled_recording, intervals_of, utterances_of
+from signkin.pipeline.coarticulation import (
+    filled_recording,
+    intervals_of,
+    smoothed,
+    utterances_of,
+)
 from signkin.pipeline.ingest import lead
 from signkin.pipeline.stock import Place, placed
 from signkin.recording import Recording
@@ -68,7 +75,8 @@ class Database:
     """The signs of a corpus and what their postures tell.
 
     tokens: in order of recording and time. geodesic_turns: recording -> orientations that the
-    geodesic distance takes (world or parent), or None.
+    geodesic distance takes (world or parent), or None. lowpass, angle: of the signs' speeds
+    (eq. 3): config's kinematics.lowpass, and 1 for half the angle, 2 for the full one.
     """
 
     corpus: Corpus
@@ -76,6 +84,8 @@ class Database:
     tokens: tuple[Token, ...]
     turns: Mapping[str, Array | None]
     euclidean_unit: float
+    lowpass: Mapping[str, Any]
+    angle: float
 
     def candidates(self, chosen: Sequence[int]) -> Candidates:
         """Return first and last postures of some tokens."""
@@ -137,22 +147,16 @@ class Database:
 
     @cache  # noqa: B019 - a database lives as long as its job
     def speeds(self, token: int) -> tuple[float, float]:
-        """Return the mean linear and angular speed of a sign over its joints and frames.
-
-        Angles as eq. 1 measures them. NaN for a sign of one frame.
-        """
+        """Return the mean linear and angular speed of a sign (eq. 3), motion low-passed."""
         sign = self.tokens[token].sign
-        if sign.last == sign.first:
-            return float("nan"), float("nan")
-        stretch = slice(sign.first, sign.last + 1)
-        rate = sign.recording.rate_hz
-        positions = sign.recording.positions[stretch]
-        linear = euclidean_distance(positions[1:], positions[:-1]) * rate
-        turns = self.turns[sign.recording.name]
-        if turns is None:
-            return float(np.nanmean(linear)), float("nan")
-        angular = geodesic_distance(turns[stretch][1:], turns[stretch][:-1]) * rate
-        return _mean(linear), _mean(angular)
+        take = sign.recording
+        interval = Interval(sign.start_s, sign.end_s, sign.gloss, "")
+        linear, angular = sign_speeds(*self._smooth(take.name), [interval], take)[0]
+        return float(linear), float(angular) * self.angle
+
+    @cache  # noqa: B019
+    def _smooth(self, take: str) -> tuple[Array, Array | None]:
+        return smoothed(self.recordings[take], self.turns[take], self.lowpass)
 
 
 def _mean(values: Array) -> float:
@@ -168,7 +172,7 @@ def database(
 ) -> Database:
     """Gather the tagged signs of a corpus; short gaps filled, all takes at one place.
 
-    settings: config.yaml (kinematics, transitions, synthesis).
+    settings: config.yaml (kinematics, transitions, durations, synthesis).
     """
     takes: dict[str, Recording] = {}
     tokens: list[Token] = []
@@ -200,19 +204,21 @@ def of_tokens(
         else take.orientations
         for name, take in takes.items()
     }  # fmt: skip
-    return Database(corpus, takes, tuple(tokens), turns, unit)
+    angle = 1.0 if settings["durations"]["simple_angle"] == "half" else 2.0
+    lowpass_settings = settings["kinematics"]["lowpass"]
+    return Database(corpus, takes, tuple(tokens), turns, unit, lowpass_settings, angle)
 
 
 # --- durations -------------------------------------------------------------------------------
 
 
 def maker(model: str, settings: Mapping[str, Any], geodesic: bool) -> Callable[[], DurationModel]:
-    """Return what makes a duration model; settings: config's `synthesis`.
+    """Return what makes a duration model; settings: config's `durations`.
 
     geodesic: whether the corpus has this distance; without, SIMPLE is its Euclidean part alone.
     """
-    alpha = settings["alpha"] if geodesic else 1.0
-    low, high = settings["bounds_s"]
+    alpha = settings["simple_alpha"] if geodesic else 1.0
+    low, high = settings["lowest_s"], settings["highest_s"]
     makers: dict[str, Callable[[], DurationModel]] = {
         "simple": lambda: duration.SimpleDuration(alpha),
         "simple_bounded": lambda: duration.SimpleBoundedDuration(alpha, low, high),
@@ -247,8 +253,8 @@ def predictions(
 ) -> dict[str, Array]:
     """Return what each model predicts for `asked`, (N,), having learnt from other groups.
 
-    known: the captured transitions. asked: what is to be predicted in their place, row by row.
-    A model that cannot be fitted or asked predicts NaN.
+    settings: config's `durations`. known: the captured transitions. asked: what is to be
+    predicted in their place, row by row. A model that cannot be fitted or asked predicts NaN.
     """
     labels = np.array(groups)
     geodesic = bool(np.isfinite(known.geodesic).any())
@@ -372,7 +378,7 @@ def aligned_errors(found: Array, truth: Array) -> Array:
 def comparison(base: Database, settings: Mapping[str, Any]) -> pd.DataFrame:
     """Return the table `synthesis`: each captured transition made anew by each method.
 
-    settings: config.yaml (kinematics, transitions, synthesis).
+    settings: config.yaml (kinematics, transitions, durations, synthesis).
     """
     pairs = base.pairs()
     if not pairs:
@@ -391,7 +397,7 @@ def comparison(base: Database, settings: Mapping[str, Any]) -> pd.DataFrame:
     for material, tokens in chosen.items():
         stand_ins = [t or p for t, p in zip(tokens, own, strict=True)]
         asked = base.features([a for a, _ in stand_ins], [b for _, b in stand_ins])
-        predicted = predictions(known, groups, asked, settings["synthesis"])
+        predicted = predictions(known, groups, asked, settings["durations"])
         for i, (pair, ends) in enumerate(zip(pairs, tokens, strict=True)):
             if ends is None:
                 continue

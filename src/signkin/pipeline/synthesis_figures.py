@@ -51,14 +51,15 @@ def draw(
 ) -> dict[str, Drawn]:
     """Draw Fig. 1, 2, 13, and 12 where there are captured transitions (rows: `synthesis`).
 
-    settings: config.yaml (kinematics, transitions, synthesis). printed: theta of the paper.
+    settings: config.yaml (kinematics, transitions, durations, synthesis). printed: theta of the
+    paper.
     """
     if len(base.tokens) < 2:
         raise SignkinError(
             f"{len(base.tokens)} signs", file=f"corpus {base.corpus.name}",
             place="synthesis figures", expected="two signs or more",
         )  # fmt: skip
-    clock = timing(base, settings["synthesis"]["duration"], settings["synthesis"], printed)
+    clock = timing(base, settings["synthesis"]["duration"], settings["durations"], printed)
     shown = _shown(base, rows)
     out = {
         "fig01": _scheme(base, shown, "interpolation", clock, settings),
@@ -362,7 +363,7 @@ def model_durations(
     geodesic = bool(np.isfinite(source.geodesic).any())
     out = {}
     for name in MODELS:
-        make, model = maker(name, settings["synthesis"], geodesic), None
+        make, model = maker(name, settings["durations"], geodesic), None
         try:
             if known is not None:
                 model = known[usable(name, known)].teach(make())
@@ -387,7 +388,7 @@ def _composition(base: Database, settings: Mapping[str, Any], printed: Array) ->
     take = signs[0].recording
     durations, told = model_durations(base, pair, settings, printed)
     if not durations:
-        durations = {"simple_bounded": float(settings["synthesis"]["bounds_s"][1])}
+        durations = {"simple_bounded": float(settings["durations"]["highest_s"])}
     hand = _busier(signs)
     ends = [take.positions[signs[0].last], signs[1].recording.positions[signs[1].first]]
     figure = plt.figure(figsize=(style.WIDTH_IN, 4.7))
@@ -423,7 +424,7 @@ def _composition(base: Database, settings: Mapping[str, Any], printed: Array) ->
     left.set_ylim(min(left.get_ylim()[0], np.nanmin(z)), left.get_ylim()[1])
     key.set_axis_off()
     key.legend(*left.get_legend_handles_labels(), loc="center", borderaxespad=0)
-    low, high = settings["synthesis"]["bounds_s"]
+    low, high = (settings["durations"][key] for key in ("lowest_s", "highest_s"))
     skeletons.plot_durations(durations, (low, high), ax=right)
     for method, ax in zip(METHODS, panels, strict=True):
         curves = {}

@@ -17,7 +17,6 @@ from signkin.coarticulation.duration import (
     TERMS,
     DurationModel,
     MeanDuration,
-    SimpleBoundedDuration,
     SurfaceDuration,
     Transitions,
 )
@@ -202,10 +201,10 @@ def timing(base: Database, model: str, settings: Mapping[str, Any], printed: np.
     """Return the duration model, learnt from all captured transitions of the corpus.
 
     printed: theta of the paper's surface, for corpora without transitions to learn from.
-    settings: config's `synthesis`.
+    settings: config's `durations`.
     """
     pairs = base.pairs()
-    usual = MeanDuration(float(np.mean(settings["bounds_s"])))
+    usual = MeanDuration((settings["lowest_s"] + settings["highest_s"]) / 2)
     if pairs:
         known = captured(base, pairs)
         usual = MeanDuration(float(known.duration_s.mean()))
@@ -225,9 +224,7 @@ def timing(base: Database, model: str, settings: Mapping[str, Any], printed: np.
         told = "surface as printed in the paper (no captured transition to learn from)"
         return Timing(SurfaceDuration(theta=printed), "surface", told, usual)
     name = model if model == "simple" else "simple_bounded"
-    bounded = maker(name, settings, has_turns)() if name == "simple" else SimpleBoundedDuration(
-        settings["alpha"] if has_turns else 1.0, *settings["bounds_s"]
-    )  # fmt: skip
+    bounded = maker(name, settings, has_turns)()
     return Timing(bounded, name, f"{name} (nothing to learn)", usual)
 
 
@@ -434,20 +431,21 @@ def utterance_files(
 ) -> pd.DataFrame:
     """Make and write some utterances (name -> glosses); returns their table `utterances`.
 
-    settings: config's `synthesis`. out: folder of the files, which is made.
+    settings: config.yaml (durations, synthesis). out: folder of the files, which is made.
     """
+    chosen = settings["synthesis"]
     out.mkdir(parents=True, exist_ok=True)
-    clock = timing(base, settings["duration"], settings, printed)
+    clock = timing(base, chosen["duration"], settings["durations"], printed)
     tables_of = []
     for name, glosses in wanted.items():
-        tokens = retrieved(base, list(glosses), settings["retrieval"])
+        tokens = retrieved(base, list(glosses), chosen["retrieval"])
         names = [base.tokens[t].sign.recording.name for t in tokens]
         idle = corpus.settings.get("synthesis", {}).get("idle")
         takes = None
         if is_bvh(corpus):
             more = [idle["recording"]] if idle and idle["recording"] in base.recordings else []
-            takes = whole_takes(corpus, folder, base, [*names, *more], settings["align_takes"])
-        made = make_utterance(base, tokens, clock, settings, takes)
+            takes = whole_takes(corpus, folder, base, [*names, *more], chosen["align_takes"])
+        made = make_utterance(base, tokens, clock, chosen, takes)
         write_utterance(made, corpus, folder, names[0], out / name)
         parts = parts_table(made, corpus, name)
         tables.write_table(parts, out / f"{name}_parts.csv", "utterances", corpus.unit)
