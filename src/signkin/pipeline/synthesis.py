@@ -47,6 +47,8 @@ MODELS = ("simple", "simple_bounded", "linear", "surface")
 TRUE = "true"
 OWN, OTHER = "own", "other"
 DURATION_ERROR = "duration error"
+# Methods that differ by rounding alone are to count as equal.
+DECIMALS = 12
 CONTEXT_S = 0.5  # of the signs around a transition, for filter and minima
 Array = NDArray[np.float64]
 
@@ -511,8 +513,8 @@ def _rows(
                     notes.append("no frame between the tags: no position error")
                 else:
                     errors = aligned_errors(made.motion.positions, truth)
-                    row[f"error_{unit}"] = _mean(errors)
-                    row[f"wrist_error_{unit}"] = _mean(errors[:, wrists])
+                    row[f"error_{unit}"] = round(_mean(errors), DECIMALS)
+                    row[f"wrist_error_{unit}"] = round(_mean(errors[:, wrists]), DECIMALS)
                 if np.isnan(true.peak_speed) or np.isnan(got.peak_speed):
                     notes.append("gaps at a wrist: no speed")
             if method == "blending":
@@ -605,7 +607,7 @@ def summary(rows: pd.DataFrame, corpus: Corpus, draws: int, seed: int) -> pd.Dat
     for material, part in rows.groupby("material", sort=False):
         total = part.groupby(["recording", "transition"]).ngroups
         for measure, (unit, define) in error_measures(corpus.unit).items():
-            values = part.assign(value=define(part)).pivot_table(
+            values = part.assign(value=define(part).round(DECIMALS)).pivot_table(
                 index=["recording", "transition"], columns=["method", "duration_model"],
                 values="value", dropna=False, observed=False, sort=False,
             )  # fmt: skip
