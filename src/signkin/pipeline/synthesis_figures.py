@@ -55,10 +55,8 @@ def draw(
     paper.
     """
     if len(base.tokens) < 2:
-        raise SignkinError(
-            f"{len(base.tokens)} signs", file=f"corpus {base.corpus.name}",
-            place="synthesis figures", expected="two signs or more",
-        )  # fmt: skip
+        names = WITHOUT_TRUTH if rows is None else FIGURES
+        return {name: _notice(base, "The corpus has fewer than two signs.") for name in names}
     clock = timing(base, settings["synthesis"]["duration"], settings["durations"], printed)
     shown = _shown(base, rows)
     out = {
@@ -69,6 +67,14 @@ def draw(
     if rows is not None:
         out["fig12"] = _against_truth(base, rows, settings)
     return out
+
+
+def _notice(base: Database, text: str) -> Drawn:
+    """Return a figure that says why there is nothing to draw."""
+    figure, ax = plt.subplots(figsize=(style.WIDTH_IN, 1))
+    ax.text(0.5, 0.5, text, ha="center", va="center")
+    ax.set_axis_off()
+    return Drawn(figure, _frame(base, []), text)
 
 
 # --- which signs -----------------------------------------------------------------------------
@@ -251,10 +257,7 @@ def _space(base: Database) -> str:
 
 def _against_truth(base: Database, rows: pd.DataFrame, settings: Mapping[str, Any]) -> Drawn:
     if rows.empty:
-        figure, ax = plt.subplots(figsize=(style.WIDTH_IN, 1))
-        ax.text(0.5, 0.5, "the corpus has no captured transition", ha="center", va="center")
-        ax.set_axis_off()
-        return Drawn(figure, _frame(base, []), "The corpus has no captured transition.")
+        return _notice(base, "The corpus has no captured transition.")
     shown = _shown(base, rows)
     signs, unit = _signs(base, shown), base.corpus.unit
     take = signs[0].recording
