@@ -1,6 +1,8 @@
 # Naert, Larboulette & Gibet 2017, sections 3.1 and 5.2: synthetic transitions and utterances.
 
-SYNTHESIS = {k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")}
+SYNTHESIS = {
+    k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
+}
 
 
 rule synthesis:

@@ -146,7 +146,8 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         None if config["corpora"] == "all" else list(config["corpora"]),
     )
     for wanted in config["synthesis"]["utterances"]:
-        if not (_own_or_shipped(config["corpora_dir"], root) / wanted["corpus"]).is_dir():
+        folders = (Path(config["corpora_dir"]), root / config["corpora_dir"])
+        if not any((folder / wanted["corpus"]).is_dir() for folder in folders):
             raise SignkinError(
                 f"no corpus {wanted['corpus']!r}",
                 file="config.yaml",
