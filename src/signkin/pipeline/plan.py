@@ -137,7 +137,7 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
     """Check the configuration and every corpus, and find out what can be run.
 
     root: the folder of the Snakefile, where corpora and papers lie unless the working
-    directory has folders of its own of these names.
+    directory has homes of its own of these names.
     """
     check_schema(dict(config), "config", "config.yaml")
     root = Path(root)
@@ -146,8 +146,8 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         None if config["corpora"] == "all" else list(config["corpora"]),
     )
     for wanted in config["synthesis"]["utterances"]:
-        folders = (Path(config["corpora_dir"]), root / config["corpora_dir"])
-        if not any((folder / wanted["corpus"]).is_dir() for folder in folders):
+        homes = (Path(config["corpora_dir"]), root / config["corpora_dir"])
+        if not any((folder / wanted["corpus"]).is_dir() for folder in homes):
             raise SignkinError(
                 f"no corpus {wanted['corpus']!r}",
                 file="config.yaml",
