@@ -249,7 +249,14 @@ def one_wrist(
                     **row,
                 }
             )
-            points += [{"panel": f"{hand} wrist: {truth}", **p} for p in _named(drawn, label)]
+            panel = f"{hand} wrist: {truth}"
+            # Whatever is held against one truth, chance is the same.
+            known = any(point["panel"] == panel for point in points)
+            points += [
+                {"panel": panel, **p}
+                for p in _named(drawn, label)
+                if not known or p["series"] == label
+            ]
     frame = pd.DataFrame(points, columns=tables.TABLES["endres_figure"].names()[1:])
     frame["label"] = frame["label"].fillna("")
     frame.insert(0, "corpus", corpus.name)
@@ -340,10 +347,7 @@ def draw(
     for i, panel in enumerate(panels):
         ax = figure.add_subplot(grid[2 + i // columns, i % columns])
         part = points[points["panel"] == panel]
-        chance = part["series"].str.startswith(("chance", "closed"))
-        # Several kinds are held against one truth: one chance line for all.
-        part = pd.concat([part[~chance], part[chance].drop_duplicates(["series", "x"])])
-        drawing.plot_hit_rates(part, ax=ax, legend=False, right=8.0, by="series")
+        drawing.plot_hit_rates(part, ax=ax, legend=False, right=6.0, by="series")
         ax.set_title(panel, loc="left")
         if i % columns:
             ax.set_ylabel("")
