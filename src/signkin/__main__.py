@@ -1,4 +1,4 @@
-"""The command line: `signkin run` runs the workflow of the folder it is called in."""
+"""The command line: `signkin run` runs the workflow, `signkin audit` a ledger of claims."""
 
 from __future__ import annotations
 
@@ -17,8 +17,40 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("run", help="run the workflow; further arguments go to snakemake")
-    _, for_snakemake = parser.parse_known_args(arguments)
+    ledger = commands.add_parser("audit", help="check the claims of a paper's folder")
+    ledger.add_argument("papers", nargs="+", type=Path, help="folders with claims.yaml and tables")
+    ledger.add_argument("--out", type=Path, help="write the verdicts to this CSV file")
+    ledger.add_argument("--checks", type=Path, help="write every check's findings to this one")
+    ledger.add_argument("--results", type=Path, help="test on the corpora of this folder, too")
+    known, for_snakemake = parser.parse_known_args(arguments)
+    if known.command == "audit":
+        if for_snakemake:
+            parser.error(f"unrecognized arguments: {' '.join(for_snakemake)}")
+        return run_audit(known.papers, known.out, known.checks, known.results)
     return run_workflow(for_snakemake)
+
+
+def run_audit(
+    papers: list[Path], out: Path | None, checks: Path | None, results: Path | None
+) -> int:
+    """Print the verdicts of claims; returns 1 where the input cannot be used, else 0."""
+    from signkin.errors import SignkinError
+    from signkin.pipeline.audit import run_ledger, told
+    from signkin.tables import write_table
+
+    try:
+        ledger = run_ledger(papers, results)
+        for frame, name, path in (
+            (ledger.claims, "claims", out),
+            (ledger.checks, "checks", checks),
+        ):
+            if path is not None:
+                write_table(frame, path, name)
+    except SignkinError as error:
+        print(f"signkin: {error}", file=sys.stderr)
+        return 1
+    print(told(ledger))
+    return 0
 
 
 def run_workflow(extra: list[str], folder: Path | None = None) -> int:

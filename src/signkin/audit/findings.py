@@ -16,6 +16,7 @@ class Finding:
     verdict: consistent, inconsistent or undecidable (printed numbers); holds, fails or
     undecidable (corpora). why: one sentence. printed, recomputed: as text. interval: what
     rounding, or chance, allows the recomputed number to be. source: a file with the numbers.
+    item: the row of a table that the finding is about.
     """
 
     verdict: str
@@ -24,6 +25,7 @@ class Finding:
     recomputed: str = ""
     interval: str = ""
     source: str = ""
+    item: str = ""
 
 
 def summary(findings: Iterable[Finding]) -> str:
