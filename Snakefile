@@ -13,6 +13,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
+include: "workflow/rules/audit.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -22,3 +23,4 @@ rule all:
     input:
         "<results>/report/index.html",
         rules.naert2017.input,
+        rules.audit.input,

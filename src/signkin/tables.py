@@ -462,9 +462,7 @@ for _table in (
             _text("printed", "as printed"),
             _text("recomputed", "recomputed"),
             _text("interval", "what rounding allows; on a corpus, 95 % by bootstrap"),
-            _text(
-                "verdict", "consistent, inconsistent, undecidable; holds, fails; not testable"
-            ),
+            _text("verdict", "consistent, inconsistent, undecidable; holds, fails; not testable"),
             _text("why", "one sentence"),
             _text("source", "table behind it"),
         ),

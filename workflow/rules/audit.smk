@@ -36,7 +36,7 @@ rule multiverse:
             shard=PLAN.shards(w.corpus),
         ),
         intervals=rules.gather.output.intervals,
-        about=rules.gather.output.recordings,
+        excluded=rules.gather.output.excluded,
         transitions=rules.naert_tables.output.transitions,
     output:
         table="<results>/naert2017/{corpus}/multiverse.csv",

@@ -11,6 +11,7 @@ import signkin
 from signkin.audit.ledger import PRINT
 from signkin.audit.paper import Claim, Curve, Paper
 from signkin.report.page import FigureView, Page, Section, TableView
+from signkin.tables import read_table
 
 VERDICTS = ("consistent", "holds", "inconsistent", "fails", "not testable")
 NOTHING = "not testable"
@@ -38,8 +39,10 @@ def audit_page(
     )
 
 
-def summary_section(audit: Path, claims: pd.DataFrame) -> Section:
-    """Return what the main report tells of the audit; audit: results/audit."""
+def audit_section(results: Path) -> Section:
+    """Return what the main report tells of the audit."""
+    audit = results / "audit"
+    claims = read_table(audit / "claims.csv", "claims")
     bad = claims[(claims["evidence"] == PRINT) & (claims["verdict"] == "inconsistent")]
     text = [
         f"{claims['id'].nunique()} claims of {claims['paper'].nunique()} papers, each on the "
@@ -224,8 +227,6 @@ def _curves(papers: Sequence[Paper], folder: Path) -> Iterator[tuple[Paper, Curv
 
 
 def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]]) -> Section:
-    from signkin.tables import read_table
-
     views: list[TableView | FigureView] = []
     for paper, curve, base in curves:
         levels_file = base.with_name(f"{base.name}_levels.csv")

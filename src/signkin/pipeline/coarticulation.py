@@ -89,8 +89,8 @@ def transitions(
         if recording.name not in wrist_frames:
             continue
         signs = intervals_of(intervals, recording.name, "sign")
-        utterances = _utterances(corpus, intervals, recording.name, signs)
-        filled = _filled(recording, settings["kinematics"]["longest_gap_s"])
+        utterances = utterances_of(corpus, intervals, recording.name, signs)
+        filled = with_gaps_filled(recording, settings["kinematics"]["longest_gap_s"])
         wrists = _wrists(filled, wrist_frames[recording.name], settings["kinematics"]["lowpass"])
         kinds = sign_type_rows(signs, utterances, wrists, corpus.lexicon, rule)
         orientations = filled.orientations
@@ -107,15 +107,17 @@ def transitions(
     )
 
 
-def _utterances(
+def utterances_of(
     corpus: Corpus, intervals: pd.DataFrame, name: str, signs: list[Interval]
 ) -> list[str]:
+    """Return the utterance of each sign of a recording, by the corpus's own rule."""
     if "utterance" in corpus.tiers:
         return utterance_names(signs, intervals_of(intervals, name, "utterance"))
     return utterance_names(signs, gap_s=corpus.settings["annotation"].get("utterance_gap_s"))
 
 
-def _filled(recording: Recording, longest_gap_s: float) -> Recording:
+def with_gaps_filled(recording: Recording, longest_gap_s: float) -> Recording:
+    """Return the recording with the short gaps of every joint filled."""
     positions = recording.positions.copy()
     for joint in range(len(recording.joints)):
         if np.isnan(positions[:, joint]).any():

@@ -14,6 +14,7 @@ import yaml
 import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
+from signkin.pipeline.audit_report import audit_section
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -61,7 +62,7 @@ def make_page(sources: Sources) -> Page:
     text = (sources.paper / "exhibits.yaml").read_text(encoding="utf-8")
     exhibits = yaml.safe_load(text)["exhibits"]
     labels = {exhibit["id"]: exhibit for exhibit in exhibits}
-    sections = [_summary(sources), _overview(sources, labels)]
+    sections = [_summary(sources), _overview(sources, labels), audit_section(sources.results)]
     for name, corpus in sources.corpora.items():
         if corpus.tagged:
             sections.append(_corpus_section(sources, name, labels))

@@ -17,7 +17,6 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-
 WORDS = ("verdict", "link")  # formats of columns that hold text
 
 
@@ -90,7 +89,7 @@ def render(page: Page, home: Path) -> str:
     environment.filters["link"] = lambda path: Path(os.path.relpath(path, home)).as_posix()
     environment.filters["suffix"] = lambda path: Path(path).suffix.lstrip(".").upper()
     environment.tests["figure"] = lambda view: isinstance(view, FigureView)
-    environment.tests["number"] = lambda form: bool(form) and form not in WORDS
+    environment.tests["numeric"] = lambda form: bool(form) and form not in WORDS
     environment.globals["cell"] = cell
     environment.globals["rows_of"] = rows_of
     return environment.get_template("page.html.j2").render(page=page)
