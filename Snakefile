@@ -10,6 +10,7 @@ pathvars:
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/simulate.smk"
 include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"

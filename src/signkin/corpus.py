@@ -12,7 +12,7 @@ import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,11 @@ GUIDE = "See docs/adding-a-corpus.md."
 
 @dataclass(frozen=True)
 class Entry:
-    """A row of recordings.csv: one recording and where its files lie in the data folder."""
+    """A row of recordings.csv: one recording and where its files lie in the data folder.
+
+    sign, repetition: the gloss of a recording that holds one sign and the number of this
+    repetition, from 1; empty and None for a recording of continuous signing.
+    """
 
     recording: str
     signer: str
@@ -36,6 +40,8 @@ class Entry:
     annotation: str
     part: str
     line: int
+    sign: str = ""
+    repetition: int | None = None
 
 
 @dataclass(frozen=True)
@@ -75,6 +81,21 @@ class Corpus:
     def tagged(self) -> bool:
         """Whether the corpus has sign tags, which Naert et al.'s analyses need."""
         return "annotation" in self.settings
+
+    @property
+    def single_signs(self) -> bool:
+        """Whether every recording holds one sign, which Endres et al.'s analyses need."""
+        return all(entry.sign for entry in self.entries)
+
+    @property
+    def noise_sd(self) -> float:
+        """Standard deviation of the device's noise in the unit after reading (m or px)."""
+        return float(self.settings["noise_sd"])
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Entry]:
+        """The rows of recordings.csv by the recording's name."""
+        return {entry.recording: entry for entry in self.entries}
 
     @property
     def unit(self) -> str:
@@ -234,6 +255,7 @@ def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, st
 
 def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
     count = 0
+    repetitions: dict[tuple[str, str, int], int] = {}
     for line, row in _rows(path, "recordings", "recording"):
         count += 1
         if tagged and not row.get("annotation"):
@@ -243,6 +265,10 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
                 place=f"line {line}",
                 expected="one for each recording, since corpus.yaml has an annotation section",
             )
+        sign = row.get("sign", "")
+        repetition = int(row["repetition"]) if row.get("repetition") else None
+        if repetition is not None:
+            _check_repetition((row["signer"], sign, repetition), line, repetitions, path)
         yield Entry(
             recording=row["recording"],
             signer=row["signer"],
@@ -250,9 +276,33 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
             annotation=row.get("annotation", ""),
             part=row.get("part", ""),
             line=line,
+            sign=sign,
+            repetition=repetition,
         )
     if not count:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
+
+
+def _check_repetition(
+    key: tuple[str, str, int], line: int, seen: dict[tuple[str, str, int], int], path: Path
+) -> None:
+    """Refuse a repetition of no sign, and one that a signer has of a sign already."""
+    signer, sign, repetition = key
+    if not sign:
+        raise SignkinError(
+            f"repetition {repetition} without a sign",
+            file=path,
+            place=f"line {line}",
+            expected="the gloss in the column `sign`, or no repetition",
+        )
+    if key in seen:
+        raise SignkinError(
+            f"repetition {repetition} of {sign!r} by {signer} stands in line {seen[key]} already",
+            file=path,
+            place=f"line {line}",
+            expected="each repetition of a signer's sign once",
+        )
+    seen[key] = line
 
 
 def _read_signs(path: Path) -> Iterator[SignType]:

@@ -65,6 +65,8 @@ TABLES: dict[str, Table] = {
             "a recording that was read",
             (
                 *_LEAD,
+                _text("sign", "gloss of a recording that holds one sign; empty where none does"),
+                Column("repetition", "", "repetition of that sign, from 1; empty where none"),
                 Column("frames", "", "number of frames"),
                 Column("rate_hz", "Hz", "frames a second"),
                 Column("duration_s", "s", "frames / rate"),
@@ -417,6 +419,33 @@ TABLES: dict[str, Table] = {
                 Column("euclidean_m", "m", "distance between the postures at the true tags"),
             ),
         ),
+        Table(
+            "strokes",
+            "results/<corpus>/simulated/strokes.csv",
+            "a stroke of the right hand as the simulator made it (simulated single signs)",
+            (
+                _text("recording", "recording"),
+                Column("stroke", "", "place of the stroke in its recording, from 1"),
+                Column("onset_s", "s", "start of the stroke; the one before may not have ended"),
+                Column("offset_s", "s", "end of the stroke"),
+                Column("length_m", "m", "length of the stroke"),
+                Column("dx_m", "m", "displacement to the signer's right"),
+                Column("dy_m", "m", "displacement forward"),
+                Column("dz_m", "m", "displacement upward"),
+            ),
+        ),
+        Table(
+            "true_path",
+            "results/<corpus>/simulated/true_path.parquet",
+            "a frame of the right wrist without the sensor's noise (simulated single signs)",
+            (
+                _text("recording", "recording"),
+                Column("frame", "", "frame, from 0"),
+                Column("right_wrist_x_m", "m", "position to the signer's right"),
+                Column("right_wrist_y_m", "m", "position forward"),
+                Column("right_wrist_z_m", "m", "position upward"),
+            ),
+        ),
     )
 }
 
@@ -523,9 +552,286 @@ TABLES["raw_transitions"] = Table(
     tuple(c for c in TABLES["transitions"].columns if c.name not in _NOT_YET),
 )
 
+# --- Endres et al. 2013 -----------------------------------------------------------------------
+
+_DATASET = _text("dataset", "recorded, powerlaw, fitted or fitted_map")
+_TRUE_ORDER = Column(
+    "true_order", "", "order of the polynomials that fitted trajectories were made with"
+)
+_ORDER = Column("order", "", "polynomial order S")
+_SINGLE_SIGN = _text("sign", "the recording's sign")
+_GROUP = (
+    _text("corpus", "corpus, as its folder is called"),
+    _DATASET,
+    _TRUE_ORDER,
+    _text("signer", "signer, or `all`"),
+    _text("sign", "sign, or `all`"),
+)
+_COUNTED = (
+    Column("n", "", "trajectories"),
+    Column("without_truth", "", "of these, without a true boundary: in no hit rate"),
+)
+
+TABLES |= {
+    table.name: table
+    for table in (
+        Table(
+            "ground_truth",
+            "results/endres2013/<corpus>/ground_truth.csv",
+            "a segment of a power-law ground truth (section 2.4)",
+            (
+                *_LEAD,
+                Column("segment", "", "place of the segment, from 1"),
+                Column("end_s", "s", "its end, from the start of the warped movement"),
+                Column("duration_s", "s", "its duration after warping"),
+                Column("recorded_duration_s", "s", "its duration as recorded"),
+                Column("beta", "", "exponent as drawn"),
+                Column("alpha", "(m or px)^(1 + beta)/s", "gain as it follows from continuity"),
+                Column("fitted_beta", "", "exponent, fitted again to the warped samples"),
+                Column("fitted_alpha", "(m or px)^(1 + beta)/s", "gain, fitted again"),
+                Column("r_squared", "", "R squared of that fit (eq. 5)"),
+                Column("top_speed_{u}_per_s", "m/s or px/s", "top speed after warping"),
+                Column("recorded_top_speed_{u}_per_s", "m/s or px/s", "top speed as recorded"),
+                Column("straight_share", "", "share of the path that counts as straight"),
+                Column("draws", "", "draws until one was accepted, that one too"),
+            ),
+        ),
+        Table(
+            "rejected_draws",
+            "results/endres2013/<corpus>/rejected_draws.csv",
+            "a reason why draws of ground truth were rejected, of one recording",
+            (
+                *_LEAD,
+                Column("draws", "", "draws in all"),
+                _text("reason", "why draws were rejected"),
+                Column("rejected", "", "how many, for this reason"),
+            ),
+        ),
+        Table(
+            "binning_left_out",
+            "results/endres2013/<corpus>/left_out.csv",
+            "a trajectory that was not binned",
+            (*_LEAD, _DATASET, _text("reason", "why it was left out")),
+        ),
+        Table(
+            "binning",
+            "results/endres2013/<corpus>/binning.csv",
+            "a trajectory and a polynomial order (section 3)",
+            (
+                *_LEAD,
+                _SINGLE_SIGN,
+                Column("repetition", "", "its number among the repetitions"),
+                _DATASET,
+                _TRUE_ORDER,
+                _text("prior_id", "degrees of freedom, noise, scale, concentration, time unit"),
+                Column("n_bins", "", "bins T"),
+                Column("duration_s", "s", "duration of all bins"),
+                _ORDER,
+                Column("log_evidence", "", "ln P(D | S), summed over M"),
+                Column("order_probability", "", "P(S | D)"),
+                Column("map_count", "", "most probable number M of inner boundaries"),
+                Column("expected_count", "", "expected number of inner boundaries"),
+                Column("cut_mass", "", "bound on the share of P(M | D, S) that was cut off"),
+                Column("explained_variance", "", "of the trajectory by its expectation"),
+                Column("hits", "", "true boundaries that were found"),
+                Column("misses", "", "true boundaries that were not"),
+                Column("false_positives", "", "boundaries found that are none"),
+                Column("hit_rate", "", "hits over true boundaries"),
+                Column("false_positives_per_s", "1/s", "false positives a second"),
+                Column("hpfpps", "s", "hit rate over false positives a second (eq. 17)"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "order_posteriors",
+            "results/endres2013/<corpus>/order_posteriors.csv",
+            "the order posterior of a group of trajectories, at one order (Fig. 3B, 6, 7, A1)",
+            (
+                *_GROUP,
+                _ORDER,
+                Column("mean_probability", "", "mean of P(S | D) over trajectories"),
+                Column("se", "", "its standard error"),
+                Column("mean_count", "", "mean of the most probable M"),
+                Column("mean_explained_variance", "", "mean of the explained variance"),
+                Column("sd_explained_variance", "", "its standard deviation"),
+                Column("n", "", "trajectories"),
+            ),
+        ),
+        Table(
+            "hit_rates",
+            "results/endres2013/<corpus>/hit_rates.csv",
+            "the hit rate of a group of trajectories, at one order (Fig. 3C, 5, 6, A1)",
+            (
+                *_GROUP,
+                _ORDER,
+                Column("hit_rate", "", "mean over trajectories"),
+                Column("hit_rate_se", "", "its standard error"),
+                Column("false_positives_per_s", "1/s", "mean over trajectories"),
+                Column("false_positives_per_s_se", "1/s", "its standard error"),
+                Column("chance_hit_rate", "", "of Poisson events with as many false positives"),
+                Column("chance_low", "", "2.5 % of sets of such events"),
+                Column("chance_high", "", "97.5 %"),
+                Column("hpfpps", "s", "pooled hit rate over pooled false positives a second"),
+                Column("hpfpps_se", "s", "its bootstrap standard error, over finite draws"),
+                Column("hpfpps_low", "s", "2.5 % of the draws"),
+                Column("hpfpps_high", "s", "97.5 %"),
+                Column("unbounded_draws", "", "draws without a false positive"),
+                *_COUNTED,
+                _NOTE,
+            ),
+        ),
+        Table(
+            "chance_lines",
+            "results/endres2013/<corpus>/chance_lines.csv",
+            "a point of a line of no discrimination (section 3.1)",
+            (
+                *_GROUP,
+                Column("rate_per_s", "1/s", "rate of the Poisson events"),
+                Column("false_positives_per_s", "1/s", "mean of the simulated events"),
+                Column("hit_rate", "", "mean of the simulated events, matched one to one"),
+                Column("hit_rate_low", "", "2.5 % of the simulated sets"),
+                Column("hit_rate_high", "", "97.5 %"),
+                Column("closed_form", "", "1 - exp(-2 w rate)"),
+            ),
+        ),
+        Table(
+            "order_tests",
+            "results/endres2013/<corpus>/order_tests.csv",
+            "a test of orders against each other by eq. 17, power-law ground truth (section 3.2)",
+            (
+                _text("corpus", "corpus, as its folder is called"),
+                _text("question", "what is asked"),
+                _text("test", "Kruskal-Wallis, or Friedman with the trajectory as a block"),
+                Column("statistic", "", "H or chi squared"),
+                Column("df", "", "degrees of freedom"),
+                Column("p", "", "p, of ranks; hits without a false positive are a tied top"),
+                Column("n", "", "values, or blocks"),
+                Column("left_out", "", "values or blocks with neither hit nor false positive"),
+                Column("without_truth", "", "trajectories without a true boundary"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "fig01_powerlaw",
+            "results/endres2013/<corpus>/fig01.csv",
+            "a sample of the recording drawn in Fig. 1, recorded or warped",
+            (
+                *_LEAD,
+                _DATASET,
+                Column("time_s", "s", "from the start of the movement"),
+                Column("segment", "", "segment of the ground truth, from 1"),
+                *(Column(f"{axis}_{{u}}", "m or px", "position") for axis in "xyz"),
+                Column("speed_{u}_per_s", "m/s or px/s", "speed"),
+                Column("curvature_per_{u}", "1/m or 1/px", "curvature, not below straight"),
+                Column("predicted_speed_{u}_per_s", "m/s or px/s", "by the laws fitted again"),
+            ),
+        ),
+        Table(
+            "endres_figure",
+            "results/endres2013/<corpus>/fig03.csv to fig07.csv, figA1.csv",
+            "a point drawn in a figure",
+            (
+                _text("corpus", "corpus, as its folder is called"),
+                _text("panel", "panel, as in the figure"),
+                _text("series", "line or kind of mark"),
+                Column("x", "", "as the panel's horizontal axis says"),
+                Column("y", "", "as the panel's vertical axis says"),
+                Column("x_error", "", "standard error of x, where drawn"),
+                Column("y_error", "", "standard error (Fig. 3D: deviation) of y, where drawn"),
+                _text("label", "what is written beside it"),
+            ),
+        ),
+        Table(
+            "sensitivity",
+            "results/endres2013/<corpus>/sensitivity.csv",
+            "a setting of what the paper does not print, and its results on some recordings",
+            (
+                _text("corpus", "corpus, as its folder is called"),
+                _text("dof", "degrees of freedom of the prior; L: number of dimensions"),
+                _text("noise", "sensor or data, expected or plain scale"),
+                Column("concentration", "", "b"),
+                _text("time_unit", "bin, second or trajectory"),
+                Column("bins", "", "T"),
+                _text("printed", "yes where it agrees with all that section 3.2 prints"),
+                _text("default", "yes where it is the setting of config.yaml"),
+                *(
+                    Column(f"mean_count_order_{s}", "", f"mean M of recorded ones, order {s}")
+                    for s in (0, 3, 7)
+                ),
+                Column("explained_variance_order_3", "", "mean of recorded ones, order 3"),
+                Column("order_peak_recorded", "", "order with the highest mean posterior"),
+                Column("probability_3_to_5_recorded", "", "mean P(3 <= S <= 5 | D)"),
+                Column("order_peak_powerlaw", "", "the same peak, power-law ground truth"),
+                Column("hit_rate_order_3", "", "mean, power-law ground truth"),
+                Column("false_positives_per_s_order_3", "1/s", "mean, power-law ground truth"),
+                Column("hpfpps_order_3", "s", "pooled, power-law ground truth"),
+                _text("hpfpps_peak", "orders with the highest pooled ratio"),
+                Column("recovered_probability", "", "fitted_map of order 3: mean P(S = 3 | D)"),
+                Column("recovered_hit_rate", "", "fitted_map of order 3, binned with order 3"),
+                Column("recordings", "", "recordings that were run"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "wrist_boundaries",
+            "results/endres2013/<corpus>/wrist_boundaries.csv",
+            "a boundary that binning finds in a continuous recording",
+            (
+                *_LEAD,
+                _HAND,
+                Column("boundary_s", "s", "its time"),
+                Column("probability", "", "posterior mass of the bins within its clearance"),
+            ),
+        ),
+        Table(
+            "wrist_posteriors",
+            "results/endres2013/<corpus>/wrist_posteriors.csv",
+            "a wrist of a continuous recording, as a long series",
+            (
+                *_LEAD,
+                _HAND,
+                Column("n_bins", "", "bins T"),
+                Column("bin_s", "s", "duration of a bin"),
+                _ORDER,
+                Column("map_count", "", "most probable number M of inner boundaries"),
+                Column("boundaries_per_s", "1/s", "boundaries found, a second"),
+                Column("cut_mass", "", "bound on the share of P(M | D, S) that was cut off"),
+                Column("explained_variance", "", "of the wrist's path by its expectation"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "one_wrist",
+            "results/endres2013/<corpus>/one_wrist.csv",
+            "boundaries by binning against what the other study finds on the same wrist",
+            (
+                _text("corpus", "corpus, as its folder is called"),
+                _HAND,
+                _text("found", "what is looked at: boundaries, minima or tags"),
+                _text("truth", "against what: minima, tags or refined tags"),
+                Column("window_s", "s", "half-width of the window"),
+                Column("hits", "", "pairs within the window, one to one"),
+                Column("hit_rate", "", "of the truth that was hit"),
+                Column("precision", "", "of what was found that hit"),
+                Column("chance_hit_rate", "", "of as many Poisson events: mean of the draws"),
+                Column("chance_low", "", "2.5 % of the draws"),
+                Column("chance_high", "", "97.5 %"),
+                Column("p", "", "share of draws with as many hits or more"),
+                Column("n_found", "", "events found"),
+                Column("n_truth", "", "events they are held against"),
+                Column("recordings", "", "recordings"),
+                _NOTE,
+            ),
+        ),
+    )
+}
+
 
 def write_table(frame: pd.DataFrame, path: str | Path, name: str, unit: str = "m") -> None:
-    """Write a table whose columns are those of its kind, in their order; times to 1 ns."""
+    """Write a table whose columns are those of its kind, in their order.
+
+    A path that ends in .parquet gives Parquet with every bit; else CSV, times to 1 ns.
+    """
     expected = TABLES[name].names(unit)
     if list(frame.columns) != expected:
         missing = [column for column in expected if column not in frame.columns]
@@ -536,6 +842,9 @@ def write_table(frame: pd.DataFrame, path: str | Path, name: str, unit: str = "m
             place=f"table {name}",
             expected=listed(expected, 40),
         )
+    if Path(path).suffix == ".parquet":
+        frame.to_parquet(path, index=False)
+        return
     frame.to_csv(path, index=False, float_format="%.9g", lineterminator="\n")
 
 

@@ -63,8 +63,22 @@ def test_a_corpus_as_it_should_be(folder):
     assert load_corpora(folder.parent).keys() == {"mine"}
 
 
+def test_a_corpus_of_single_signs_has_a_sign_in_every_row(folder):
+    assert not load_corpus(folder).single_signs
+    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,m,a,CAKE,2\n")
+    corpus = load_corpus(folder)
+    assert corpus.single_signs
+    assert [(e.sign, e.repetition) for e in corpus.entries] == [("CAKE", 1), ("CAKE", 2)]
+    assert corpus.by_name["r2"].line == 3
+    assert corpus.noise_sd == 0.001
+    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,m,a,,\n")
+    assert not load_corpus(folder).single_signs
+
+
 def test_the_shipped_corpora_are_right(root):
     corpora = load_corpora(root / "corpora")
+    single = {name for name, corpus in corpora.items() if corpus.single_signs}
+    assert single == {"auslan-hq", "isl-kinect", "isl-sim"}
     assert set(corpora) >= {"lsf-sim", "dgs-1984189", "boston104", "libras"}
     assert len(corpora["boston104"].entries) == 201
     assert corpora["lsf-sim"].simulator == "lsf-sim"
@@ -118,6 +132,7 @@ def test_yaml_that_is_none_names_the_line(folder):
 
 
 HEAD = "recording,signer,motion,annotation\n"
+SINGLE = "recording,signer,motion,annotation,sign,repetition\n"
 
 
 @pytest.mark.parametrize(
@@ -132,6 +147,12 @@ HEAD = "recording,signer,motion,annotation\n"
         (
             "recording,signer,motion,annotation,colour\nr1,s,m,a,red\n",
             r"line 2: Additional propert",
+        ),
+        (SINGLE + "r1,s,m,a,CAKE,0\n", r"line 2, key repetition: '0' does not .*from 1"),
+        (SINGLE + "r1,s,m,a,,1\n", r"line 2: repetition 1 without a sign"),
+        (
+            SINGLE + "r1,s,m,a,CAKE,1\nr2,t,m,a,CAKE,1\nr3,s,m,a,CAKE,1\n",
+            r"line 4: repetition 1 of 'CAKE' by s stands in line 2 already",
         ),
     ],
 )

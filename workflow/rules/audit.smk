@@ -7,7 +7,7 @@ rule claims:
         rules.naert2017.input,
         *[
             getattr(rules, name).input
-            for name in ("naert2017_durations", "endres2013")
+            for name in ("naert2017_durations", "endres2013", "sensitivity")
             if rules.has(name)
         ],
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
@@ -60,7 +60,7 @@ rule curves:
         collect(rules.multiverse.output, corpus=PLAN.tagged),
         *[
             getattr(rules, name).input
-            for name in ("naert2017_durations", "endres2013")
+            for name in ("naert2017_durations", "endres2013", "sensitivity")
             if rules.has(name)
         ],
         papers=PLAN.claim_files(),

@@ -167,6 +167,4 @@ rule naert2017:
         collect(rules.naert_tables.output, corpus=PLAN.tagged),
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
         collect(rules.write_elan.output, corpus=PLAN.with_elan),
-        collect(
-            rules.simulation_check.output, corpus=PLAN.simulated_by("lsf-sim") or []
-        ),
+        collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),

@@ -296,7 +296,7 @@ def every(
     why = f"{holds} in {int(answers.sum())} of {len(answers)} {what}"
     against = frame[~answers]
     if len(against) and by:
-        names = ["/".join(str(v) for v in row) for row in against[list(by)].to_numpy()]
+        names = ["/".join(map(_label, row)) for row in against[list(by)].to_numpy()]
         why += f"; not in {'/'.join(by)} {listed(names, 6)}"
     fits = good >= share - 1e-12
     return [Finding(HOLDS if fits else FAILS, why, recomputed=told,

@@ -82,6 +82,7 @@ class Curve:
     reads: str
     where: str
     reference: str
+    holds: str
     line: int
 
 
@@ -165,7 +166,7 @@ def read_paper(folder: str | Path) -> Paper:
         Curve(
             claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
             label=c["label"], reads=c["reads"], where=c.get("where", ""),
-            reference=c.get("reference", ""), line=lines[("multiverse", i)],
+            reference=c.get("reference", ""), holds=c.get("holds", ""), line=lines[("multiverse", i)],
         )
         for i, c in enumerate(content.get("multiverse", []))
     )  # fmt: skip

@@ -1,6 +1,38 @@
 """Bayesian binning of trajectories with polynomial segments (Endres et al. 2013)."""
 
+from signkin.binning.hit_rate import (
+    ChanceLine,
+    GroupRates,
+    HitRate,
+    Hpfpps,
+    OrderTests,
+    RankTest,
+    chance_line,
+    compare_orders,
+    group_rates,
+    hit_rate,
+    hpfpps,
+    match,
+)
 from signkin.binning.posterior import Posterior, fit, fit_many, segment_log_evidence
 from signkin.binning.prior import Prior
 
-__all__ = ["Posterior", "Prior", "fit", "fit_many", "segment_log_evidence"]
+__all__ = [
+    "ChanceLine",
+    "GroupRates",
+    "HitRate",
+    "Hpfpps",
+    "OrderTests",
+    "Posterior",
+    "Prior",
+    "RankTest",
+    "chance_line",
+    "compare_orders",
+    "fit",
+    "fit_many",
+    "group_rates",
+    "hit_rate",
+    "hpfpps",
+    "match",
+    "segment_log_evidence",
+]

@@ -40,7 +40,9 @@ C2, C3, C4, C5, C6, C7, C8, C9, C10, C11, C12, C13 = (1.0 / math.factorial(k) fo
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def log_in_place(x: F, x_bits: I, mantissa: F, mantissa_bits: I, power: F, power_bits: I, n: int) -> None:
+def log_in_place(
+    x: F, x_bits: I, mantissa: F, mantissa_bits: I, power: F, power_bits: I, n: int
+) -> None:
     """Replace x[:n], positive and normal, by its natural log, to the last bit or so.
 
     The bits arrays are the same memory as whole numbers; mantissa and power are scratch. The
@@ -819,20 +821,21 @@ def best_boundaries(evidence: F, parts: int) -> NDArray[np.int64]:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def log_compositions(bins: int, longest: int) -> F:
-    """Return, for m = 0..T-1, the log of the number of cuts of T bins into m + 1 parts <= W.
+def log_compositions(bins: int, longest: int, most: int) -> F:
+    """Return, for m < most, the log of the number of cuts of T bins into m + 1 parts <= W.
 
     A sum over a window of W is the end of one block of W plus the start of the next: nothing
-    is subtracted, so nothing is lost.
+    is subtracted, so nothing is lost. For few parts: for many, the numbers that lead to T bins
+    are too small beside the largest.
     """
-    out = np.full(bins, -np.inf)
+    out = np.full(most, -np.inf)
     now = np.zeros(bins + 1)
     after = np.empty(bins + 1)
     ending = np.empty(bins + 1)  # sum from q to the end of q's block
     starting = np.empty(bins + 1)  # sum from the start of q's block to q
     scale = 0.0
     now[0] = 1.0
-    for m in range(bins):
+    for m in range(most):
         for q in range(bins + 1):
             starting[q] = now[q] + (starting[q - 1] if q % longest else 0.0)
         for q in range(bins, -1, -1):

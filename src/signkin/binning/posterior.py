@@ -12,11 +12,10 @@ not fit: the last inner boundary is at most at bin T - 2.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
-from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +34,9 @@ EVERY_COUNT_UP_TO = 256
 BAND = 32
 BAND_CUT_MASS = 1e-6
 CLEARANCE_BINS = 3
-TAIL_PRICES = 5
+TAIL_STEPS = 4
+NO_CANCELLATION = 0.01
+ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 PENALTIES = (8.0, 2.0, 1.0, 0.5, 0.2, 0.0, -0.5, -2.0, -8.0)  # in units of ln T, for bounds
 
 
@@ -125,7 +126,9 @@ class Posterior:
     def _kept(values: Floats | None) -> Floats:
         if values is None:
             raise SignkinError(
-                "expectations were not asked for", place="fit", expected="fit(..., expectations=True)"
+                "expectations were not asked for",
+                place="fit",
+                expected="fit(..., expectations=True)",
             )
         return values
 
@@ -151,9 +154,9 @@ def fit(
     orders: polynomial orders. prior: mandatory. dt_s: duration of a bin, for
     Prior(time_unit="second"). max_count: the largest M worked out; None is every M up to 256
     bins, and above those around the likely M, the others being -inf; either way `cut_mass`
-    bounds the share of P(M | D) that is left out. max_segment_bins: the longest segment; segmentations with
-    longer ones have no prior probability, the others share it evenly. expectations: whether to
-    work out expected trajectories and noise too.
+    bounds the share of P(M | D) that is left out. max_segment_bins: the longest segment;
+    segmentations with longer ones have no prior probability, the others share it evenly.
+    expectations: whether to work out expected trajectories and noise too.
 
     Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
     """
@@ -199,33 +202,36 @@ def fit(
 
 
 def fit_many(
-    trajectories: Iterable[Floats],
+    trajectories: Sequence[Floats],
     orders: Sequence[int] = tuple(range(8)),
-    prior: Prior | None = None,
+    prior: Prior | Sequence[Prior] | None = None,
+    dt_s: float | Sequence[float] | None = None,
     workers: int = 1,
     names: Sequence[str] | None = None,
     **options: object,
 ) -> list[Posterior]:
     """Fit many trajectories, on `workers` cores; the results do not depend on how many.
 
-    The kernels run without Python's lock, so threads share the work. options: as for `fit`.
+    The kernels run without Python's lock, so threads share the work. prior, dt_s: one for all,
+    or one each. options: as for `fit`.
     """
-    items = list(trajectories)
-    called = [f"trajectory {i + 1}" for i in range(len(items))] if names is None else list(names)
+    n = len(trajectories)
+    priors = [prior] * n if prior is None or isinstance(prior, Prior) else list(prior)
+    steps = list(dt_s) if isinstance(dt_s, Sequence) else [dt_s] * n
+    called = [f"trajectory {i + 1}" for i in range(n)] if names is None else list(names)
 
-    def one(job: tuple[Floats, str]) -> Posterior:
-        return fit(job[0], orders, prior, name=job[1], **options)  # type: ignore[arg-type]
+    def one(job: tuple[Floats, Prior | None, float | None, str]) -> Posterior:
+        x, of_it, step, name = job
+        return fit(x, orders, of_it, dt_s=step, name=name, **options)  # type: ignore[arg-type]
 
-    jobs = zip(items, called, strict=True)
+    jobs = zip(trajectories, priors, steps, called, strict=True)
     if workers <= 1:
         return [one(job) for job in jobs]
     with ThreadPoolExecutor(max_workers=workers) as pool:
         return list(pool.map(one, jobs))
 
 
-def segment_log_evidence(
-    X: Floats, order: int, prior: Prior, dt_s: float | None = None
-) -> Floats:
+def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:
     """Return ln P(X[i..j]) of every segment, (T, T) at [i, j], inclusive; -inf for j < i.
 
     Local time runs from 1 to the segment's number of bins. X is taken as given.
@@ -291,7 +297,12 @@ def _checked(
             expected="finite values; fill or cut out gaps first",
         )
     wanted = tuple(int(order) for order in orders)
-    if not wanted or min(wanted) < 0 or max(wanted) > HIGHEST_ORDER or len(set(wanted)) < len(wanted):
+    if (
+        not wanted
+        or min(wanted) < 0
+        or max(wanted) > HIGHEST_ORDER
+        or len(set(wanted)) < len(wanted)
+    ):
         raise SignkinError(
             f"the orders are {list(orders)}",
             file=name,
@@ -323,7 +334,15 @@ def _expect(whitened: Floats, made: Tables, segments: Floats) -> tuple[Floats, F
     mean = np.empty((len(segments), bins, dims))
     noise = np.empty((len(segments), dims, dims))
     kernels.expectations(
-        whitened, made.cosine, made.sine, made.inverse, made.powers, made.half, segments, mean, noise
+        whitened,
+        made.cosine,
+        made.sine,
+        made.inverse,
+        made.powers,
+        made.half,
+        segments,
+        mean,
+        noise,
     )
     return mean, noise
 
@@ -394,24 +413,53 @@ def _band_cut(
 ) -> float:  # fmt: skip
     """Return a bound on the share of P(M | D) that a band leaves out.
 
-    Outside of the window of counts the bound of `_log_tail`. Inside of it, paths that leave the
-    band: their share at the pass's price of a segment, times the most that the prior differs
-    from that price over the window.
+    Outside of the window of counts everything is left out, inside of it the paths that leave
+    the band. Their sum at the pass's price of a segment is `left_out` of the sum over all, which
+    bounds what any one M lacks (as small as rounding lets it be told), and Chernoff's bound
+    holds for each M as well: the lesser of the two counts. Prices are added until the bound is
+    good enough.
     """
     bins = len(evidence)
+    m = np.arange(bins)
     inside = np.flatnonzero(np.isfinite(log_by_count))
     low, high = int(inside[0]), int(inside[-1]) + 1
-    tail = np.logaddexp(
-        _log_tail_by_sums(evidence, log_prior, 0, low),
-        _log_tail_by_sums(evidence, log_prior, high, bins),
-    )
-    window = np.arange(low, high)
-    differs = log_prior[low:high] + (window + 1) * price
-    at_price = log_by_count[low:high] - differs
-    worst = differs.max() + logsumexp(at_price) - log_evidence
-    with np.errstate(divide="ignore"):
-        strayed = np.exp(min(0.0, np.log(left_out) + worst))
-    return float(min(1.0, _share(tail, log_evidence) + strayed))
+    at_price = log_by_count[low:high] - log_prior[low:high] - (inside + 1) * price
+    strayed = np.full(bins, np.inf)
+    strayed[low:high] = np.log(max(left_out, ROUNDING)) + logsumexp(at_price)
+    strayed += (m + 1) * price
+    bound = np.full(bins, np.inf)
+    share = np.inf
+    for step in range(TAIL_STEPS):
+        for tilt in _prices(bins, low, high, step):
+            bound = np.minimum(bound, _log_bound(evidence, tilt) + (m + 1) * tilt)
+        lacking = np.minimum(bound, strayed) + log_prior - log_evidence
+        share = float(np.exp(np.minimum(0.0, logsumexp(lacking))))
+        if share <= BAND_CUT_MASS:
+            break
+    return share
+
+
+def _prices(bins: int, low: int, high: int, step: int) -> list[float]:
+    """Return prices of a segment at which few, and many segments weigh most.
+
+    At first for the counts below the window, at twice its end and near one segment a bin; then
+    in between, and higher still for the low side, where few segments fit badly.
+    """
+    at_low = kernels.price_of_boundary(bins, max(low - 1, 0)) * 4.0 * 8.0**step
+    at_top = bins - 1 - (bins >> 6)
+    ratio = at_top / (2 * high)
+    shares = ((0.0, 1.0), (0.5,), (0.25, 0.75), (0.125, 0.375, 0.625, 0.875))[step]
+    places = [min(int(2 * high * ratio**share), bins - 1) for share in shares]
+    return [at_low, *(kernels.price_of_boundary(bins, at) for at in places)]
+
+
+def _log_bound(evidence: Floats, price: float) -> float:
+    """Return the log of the sum over all segmentations, each segment paying the price.
+
+    With M + 1 prices put back it bounds the sum over those with M boundaries (Chernoff).
+    """
+    best, weight = np.empty(len(evidence) + 1), np.empty(evidence.shape)
+    return float(kernels.log_all_ways(evidence, price, best, weight))
 
 
 def _refuse_lost(lost: Floats) -> None:
@@ -443,28 +491,30 @@ def _log_prior(bins: int, longest: int) -> Floats:
 def _log_compositions(bins: int, longest: int) -> Floats:
     """Return the log of the number of ways to cut T bins into M + 1 parts of at most W each.
 
-    By the log-domain recursion over parts where inclusion and exclusion of whole numbers
-    would grow too long; whole numbers up to 600 bins.
+    Inclusion and exclusion, sum over r of (-1)^r C(k, r) C(T - rW - 1, k - 1) for k parts, where
+    its terms do not cancel, that is for many parts; for few parts a recursion that adds alone.
     """
-    if bins <= 600:
-        return np.array([_log_whole(_compositions(bins, m + 1, longest)) for m in range(bins)])
-    return kernels.log_compositions(bins, longest)
+    k = np.arange(1, bins + 1)[:, None]
+    r = np.arange(-(-bins // longest))[None, :]
+    left = bins - r * longest - 1
+    fits = (left >= k - 1) & (r <= k)
+    log_term = np.where(fits, _log_comb(k, r) + _log_comb(left, k - 1), -np.inf)
+    largest = np.maximum(log_term.max(axis=1), 0.0)  # -inf where no cut fits
+    total = np.sum(np.where(r % 2, -1.0, 1.0) * np.exp(log_term - largest[:, None]), axis=1)
+    cancelled = np.flatnonzero(total < NO_CANCELLATION)
+    first = int(cancelled[-1]) + 1 if len(cancelled) else 0
+    out = np.empty(bins)
+    out[:first] = kernels.log_compositions(bins, longest, first)
+    with np.errstate(divide="ignore"):
+        out[first:] = largest[first:] + np.log(total[first:])
+    return out
 
 
-def _compositions(total: int, parts: int, largest: int) -> int:
-    """Return the number of ordered sums of `parts` numbers from 1 to `largest` (exact)."""
-    return sum(
-        (-1) ** r * comb(parts, r) * comb(total - r * largest - 1, parts - 1)
-        for r in range(parts + 1)
-        if total - r * largest - 1 >= parts - 1
-    )
-
-
-def _log_whole(number: int) -> float:
-    if number <= 0:
-        return float("-inf")
-    shift = max(0, number.bit_length() - 900)
-    return float(np.log(float(number >> shift)) + shift * np.log(2.0))
+def _log_comb(n: NDArray[np.int64], k: NDArray[np.int64]) -> Floats:
+    """Return ln C(n, k), of whatever value where k is not in 0..n."""
+    inside = (k >= 0) & (k <= n)
+    n, k = np.where(inside, n, 0), np.where(inside, k, 0)
+    return np.asarray(gammaln(n + 1) - gammaln(k + 1) - gammaln(n - k + 1))
 
 
 def _log_tail(evidence: Floats, first: int, bins: int) -> float:
@@ -483,30 +533,6 @@ def _log_tail(evidence: Floats, first: int, bins: int) -> float:
         kernels.best_path(evidence, float(penalty), best)
         bound = np.minimum(bound, best[bins] + (m + 1) * penalty)
     return float(logsumexp(bound)) + _log_uniform(bins)
-
-
-def _log_tail_by_sums(evidence: Floats, log_prior: Floats, first: int, end: int) -> float:
-    """Return the log of a bound on the sum of P(M) P(D | M) over M = first..end - 1.
-
-    For any price of a segment, the sum over the segmentations with M boundaries is at most the
-    sum over all, each segment paying the price, with M + 1 prices put back (Chernoff's bound).
-    The least over the prior's own prices at some M of the range, and some higher ones (where
-    few segments fit badly), is the bound.
-    """
-    if end <= first:
-        return -np.inf
-    bins = len(evidence)
-    m = np.arange(first, end)
-    best, weight = np.empty(bins + 1), np.empty(evidence.shape)
-    bound = np.full(len(m), np.inf)
-    places = np.unique(np.geomspace(first + 1, end, TAIL_PRICES).astype(int) - 1)
-    prices = [kernels.price_of_boundary(bins, int(at)) for at in places]
-    if first == 0:
-        prices += [4.0 * prices[0], 16.0 * prices[0], 64.0 * prices[0]]
-    for price in prices:
-        total = kernels.log_all_ways(evidence, price, best, weight)
-        bound = np.minimum(bound, total + (m + 1) * price)
-    return float(logsumexp(bound + log_prior[first:end]))
 
 
 def _share(log_tail: float, log_evidence: float) -> float:

@@ -168,7 +168,8 @@ def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
     diagonal = np.diagonal(factors, axis1=1, axis2=2)
     log_ratio = np.cumsum(np.log(root_b) - np.log(diagonal), axis=1)
     return _Geometry(
-        *(np.ascontiguousarray(x, dtype=np.float64) for x in (cosine, sine)),
+        np.ascontiguousarray(cosine, dtype=np.float64),
+        np.ascontiguousarray(sine, dtype=np.float64),
         np.ascontiguousarray(_inverse(factors), dtype=np.float64),
         np.ascontiguousarray(powers, dtype=np.float64),
         np.asarray(log_ratio, dtype=np.float64),
@@ -182,6 +183,8 @@ def _inverse(upper: NDArray[np.longdouble]) -> NDArray[np.longdouble]:
     for column in range(size):
         out[:, column, column] = 1 / upper[:, column, column]
         for row in range(column - 1, -1, -1):
-            total = (upper[:, row, row + 1 : column + 1] * out[:, row + 1 : column + 1, column]).sum(1)
+            total = (
+                upper[:, row, row + 1 : column + 1] * out[:, row + 1 : column + 1, column]
+            ).sum(1)
             out[:, row, column] = -total / upper[:, row, row]
     return out

@@ -42,7 +42,9 @@ def plot_choices(
 
     levels: choice -> its levels in order. names: whether to write them on the left.
     """
-    rows, labels, edges = [], [], []
+    rows: list[tuple[str, str]] = []
+    labels: list[str] = []
+    edges: list[int] = []
     for choice, values in levels.items():
         edges.append(len(rows))
         for value in values:

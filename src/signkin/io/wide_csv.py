@@ -16,6 +16,9 @@ import pandas as pd
 from signkin.errors import SignkinError, listed
 from signkin.io.registry import SourceMotion, motion_reader
 
+# Noise is written with digits this much finer than its standard deviation, so that the file's last
+# digit adds nothing to it.
+NOISE_PER_DIGIT = 1000
 # A clock that is off by more than this share of a frame is not a constant rate.
 CLOCK_TOLERANCE = 0.05
 
@@ -57,6 +60,26 @@ def read_wide_csv(
             positions[:, j, axis] = column_numbers(rows, column)
     rate = None if time_column is None else _rate(column_numbers(rows, time_column), time_column)
     return SourceMotion(rate_hz=rate, joints=tuple(joints), positions=positions)
+
+
+def write_wide_csv(
+    path: Path, columns: Mapping[str, Sequence[float] | np.ndarray], noise_sd: float
+) -> None:
+    """Write columns of numbers with a column `frame` before them, a row a frame.
+
+    noise_sd: standard deviation of the values' noise, in their unit; it sets the digits written.
+    """
+    digits = digits_for(noise_sd)
+    table = np.column_stack([np.asarray(values, dtype=float) for values in columns.values()])
+    rows = (",".join([str(i), *(f"{v:.{digits}f}" for v in row)]) for i, row in enumerate(table))
+    path.write_text("\n".join([",".join(["frame", *columns]), *rows]) + "\n", encoding="utf-8")
+
+
+def digits_for(noise_sd: float) -> int:
+    """Return the decimals whose last one is at most a thousandth of the noise."""
+    if not noise_sd > 0:
+        raise SignkinError(f"a noise of {noise_sd:g}", expected="a standard deviation above 0")
+    return max(0, int(np.ceil(np.log10(NOISE_PER_DIGIT / noise_sd))))
 
 
 def read_text_table(path: Path) -> pd.DataFrame:

@@ -9,6 +9,8 @@ with an odd number of taps so that its delay is a whole number of samples.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
@@ -47,19 +49,39 @@ def lowpass(
         )
     flat = np.asarray(x, dtype=float).reshape(len(x), -1)
     out = np.full_like(flat, np.nan)
-    taps = fir_taps(rate_hz, cutoff_hz) if method == "fir" else None
-    sos = butter(order, cutoff_hz, fs=rate_hz, output="sos")
-    for column in range(flat.shape[1]):
-        for first, end in stretches(~np.isnan(flat[:, column])):
-            piece = flat[first:end, column]
+    taps = _taps(rate_hz, cutoff_hz) if method == "fir" else None
+    there = ~np.isnan(flat)
+    # Columns with the same gaps (a joint's axes) go through the filter together.
+    for columns in _alike(there):
+        for first, end in stretches(there[:, columns[0]]):
+            piece = flat[first:end, columns]
             if taps is not None:
-                out[first:end, column] = _centred(piece, taps)
+                filtered = np.column_stack([_centred(column, taps) for column in piece.T])
             else:
                 # Long enough for the filter to settle (the usual padding is too short for low
                 # cut-offs); shorter for pieces that are.
                 pad = min(int(np.ceil(3 * rate_hz / cutoff_hz)), len(piece) - 1)
-                out[first:end, column] = sosfiltfilt(sos, piece, padlen=pad)
+                sos = _sections(order, cutoff_hz, rate_hz)
+                filtered = sosfiltfilt(sos, piece, axis=0, padlen=pad)
+            out[first:end, columns] = filtered
     return out.reshape(np.shape(x))
+
+
+def _alike(there: NDArray[np.bool_]) -> list[list[int]]:
+    groups: dict[bytes, list[int]] = {}
+    for column in range(there.shape[1]):
+        groups.setdefault(there[:, column].tobytes(), []).append(column)
+    return list(groups.values())
+
+
+@lru_cache(maxsize=64)
+def _sections(order: int, cutoff_hz: float, rate_hz: float) -> NDArray[np.float64]:
+    return np.asarray(butter(order, cutoff_hz, fs=rate_hz, output="sos"))
+
+
+@lru_cache(maxsize=64)
+def _taps(rate_hz: float, cutoff_hz: float) -> NDArray[np.float64]:
+    return fir_taps(rate_hz, cutoff_hz)
 
 
 def _centred(piece: NDArray[np.float64], taps: NDArray[np.float64]) -> NDArray[np.float64]:

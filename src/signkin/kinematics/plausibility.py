@@ -7,7 +7,7 @@ lengths do not). A recording that fails is reported, never changed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,9 +65,10 @@ def check_recording(recording: Recording) -> list[Finding]:
     """
     ruler = metres_per_unit(recording)
     findings = []
-    for hand in ("right", "left"):
+    right, left = (_speed_finding(recording, hand, ruler) for hand in ("right", "left"))
+    for hand, own, other in (("right", right, left), ("left", left, right)):
         findings += _length_findings(recording, hand, ruler)
-        findings.append(_speed_finding(recording, hand, ruler))
+        findings.append(_at_rest(own, other))
     findings.append(_swap_finding(recording))
     return findings
 
@@ -139,6 +140,13 @@ def _speed_finding(recording: Recording, hand: str, ruler: float | None) -> Find
     elif fastest < limit.low:
         note = "this hand hardly moves: a hand that rests, or a wrong rate or unit"
     return _finding(name, fastest, limit, note)
+
+
+def _at_rest(own: Finding, other: Finding) -> Finding:
+    """Let a hand rest while the other signs: a wrong rate or unit would slow down both."""
+    if own.value < own.low and other.verdict == "plausible":
+        return replace(own, verdict="plausible", note="this hand rests while the other one moves")
+    return own
 
 
 def _swap_finding(recording: Recording) -> Finding:

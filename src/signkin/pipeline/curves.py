@@ -64,6 +64,9 @@ def _specs(
         table = table[table["corpus"] == evidence.name]
     if curve.where:
         table = table[evaluate(curve.where, {str(c): table[c] for c in table.columns})]
+    if curve.holds:
+        answers = evaluate(curve.holds, {str(c): table[c] for c in table.columns})
+        table = table.assign(holds=answers)
     found = specifications(table, curve.choices, curve.estimate, curve.reference)
     return found if len(found) else None
 

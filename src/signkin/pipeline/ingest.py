@@ -72,7 +72,7 @@ def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError
 
 def lead(corpus: Corpus, recording: str) -> dict[str, str]:
     """Return the first columns of every table: corpus, recording, signer."""
-    signer = next(entry.signer for entry in corpus.entries if entry.recording == recording)
+    signer = corpus.by_name[recording].signer
     return {"corpus": corpus.name, "recording": recording, "signer": signer}
 
 
@@ -144,6 +144,8 @@ def _about(
 ) -> dict[str, Any]:
     return {
         **lead(corpus, entry.recording),
+        "sign": entry.sign,
+        "repetition": entry.repetition,
         "frames": recording.frames,
         "rate_hz": recording.rate_hz,
         "duration_s": recording.duration_s,

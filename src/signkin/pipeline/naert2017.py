@@ -300,10 +300,18 @@ def draw_simulation(errors: pd.DataFrame, surface: pd.DataFrame) -> Figure:
     return figure
 
 
+def spread(names: Sequence[str], most: int) -> list[str]:
+    """Return up to `most` names from the first to the last at even steps: not four of one sign."""
+    places = np.linspace(0, len(names) - 1, min(most, len(names))).round().astype(int)
+    return [names[place] for place in places]
+
+
 def draw_speeds(frames: Sequence[Path], minima: pd.DataFrame, unit: str, most: int) -> Figure:
-    """Draw wrist speeds and minima of the first recordings of a corpus, a panel each."""
-    kinematics = pd.concat([pd.read_parquet(path) for path in frames])
-    names = list(dict.fromkeys(kinematics["recording"]))[:most]
+    """Draw wrist speeds and minima, a panel a recording, of `most` spread over a corpus."""
+    there = [pd.read_parquet(path, columns=["recording"])["recording"] for path in frames]
+    names = spread(list(dict.fromkeys(pd.concat(there))), most)
+    wanted = [("recording", "in", names)]
+    kinematics = pd.concat([pd.read_parquet(path, filters=wanted) for path in frames])
     figure, axes = plt.subplots(
         len(names), 1, figsize=(style.WIDTH_IN, 0.6 + 1.7 * len(names)), squeeze=False
     )

@@ -16,7 +16,7 @@ from signkin.corpus import (
     data_folder,
     load_corpora,
 )
-from signkin.errors import SignkinError, listed
+from signkin.errors import SignkinError
 from signkin.provenance import code_digest
 
 
@@ -46,6 +46,16 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if not corpus.tagged]
 
     @property
+    def single_signs(self) -> list[str]:
+        """Corpora of single signs, which Endres et al.'s analyses run on."""
+        return [name for name, corpus in self.corpora.items() if corpus.single_signs]
+
+    @property
+    def continuous(self) -> list[str]:
+        """The other corpora, whose wrists are binned as long series."""
+        return [name for name, corpus in self.corpora.items() if not corpus.single_signs]
+
+    @property
     def with_elan(self) -> list[str]:
         """Corpora whose tags are ELAN files, which refinement writes back."""
         return [
@@ -54,16 +64,26 @@ class Plan:
             if self.corpora[name].settings["annotation"]["format"] == "eaf"
         ]
 
-    def simulated_by(self, simulator: str) -> str | None:
-        """Return the corpus that a simulator makes in this run, None where there is none."""
-        names = [name for name, corpus in self.corpora.items() if corpus.simulator == simulator]
-        if len(names) > 1:
-            raise SignkinError(
-                f"the simulator {simulator} makes {listed(names)}",
-                place="key simulator",
-                expected="one corpus for each simulator",
-            )
-        return names[0] if names else None
+    @property
+    def simulated(self) -> dict[str, str]:
+        """The corpus that each simulator makes in this run: simulator -> corpus."""
+        out: dict[str, str] = {}
+        for name, corpus in self.corpora.items():
+            if corpus.simulator is None:
+                continue
+            if corpus.simulator in out:
+                raise SignkinError(
+                    f"the simulator {corpus.simulator} makes {out[corpus.simulator]} and {name}",
+                    place="key simulator",
+                    expected="one corpus for each simulator",
+                )
+            out[corpus.simulator] = name
+        return out
+
+    @property
+    def single_signs(self) -> list[str]:
+        """Corpora whose recordings hold one sign each, which Endres et al.'s analyses run on."""
+        return [name for name, corpus in self.corpora.items() if corpus.single_signs]
 
     def shards(self, corpus: str) -> list[str]:
         """Return the names of a corpus's shards, `0001` and so on."""

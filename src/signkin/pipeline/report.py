@@ -15,6 +15,7 @@ import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.pipeline.audit_report import audit_section
+from signkin.pipeline.corpora_report import SIGN_COLUMNS, design, origin, titled
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -130,7 +131,8 @@ def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, objec
         "minutes": float(about["duration_s"].sum()) / 60,
     }
     if not corpus.tagged:
-        return {**row, "signs": None, "transitions": None, "mean_s": None, "sd_s": None}
+        signs = len(about) if corpus.single_signs else None
+        return {**row, "signs": signs, "transitions": None, "mean_s": None, "sd_s": None}
     table2 = read_table(sources.naert(name, "table2.csv"), "table2").set_index("type")
     everything = table2.loc["all"]
     return {
@@ -461,12 +463,13 @@ def _data_section(sources: Sources) -> Section:
 def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
     return TableView(
         label="",
-        title=f"Recordings: {name}",
+        title=titled("Recordings", sources.corpora[name]),
         caption=_about(sources, name, frame),
         frame=frame,
         columns={
             "recording": ("recording", ""),
             "signer": ("signer", ""),
+            **(SIGN_COLUMNS if sources.corpora[name].single_signs else {}),
             "frames": ("frames", "d"),
             "rate_hz": ("rate (Hz)", "g"),
             "duration_s": ("length (s)", ".2f"),
@@ -486,10 +489,10 @@ def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
     shown = min(recordings, SPEED_PANELS)
     return FigureView(
         label="",
-        title=f"Wrist speed: {name}",
+        title=titled("Wrist speed", sources.corpora[name]),
         caption=f"Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
-        f"{shown} of {recordings} recordings; low-pass: {lowpass['method']}, half gain at "
-        f"{lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to refine.",
+        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, half "
+        f"gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to refine.",
         svg=base.with_suffix(".svg"),
         files=[base.with_suffix(s) for s in (".svg", ".pdf")],
     )
@@ -500,7 +503,10 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
     findings = read_table(sources.shared(name, "plausibility"), "plausibility")
     verdicts = findings["verdict"].value_counts()
     many = "recordings" if len(frame) > 1 else "recording"
-    parts = [f"{len(frame)} {many}, {int(frame['frames'].sum())} frames."]
+    parts = [] if sources.corpora[name].tagged else [origin(sources.corpora[name])]
+    parts.append(f"{len(frame)} {many}, {int(frame['frames'].sum())} frames.")
+    if sources.corpora[name].single_signs:
+        parts.append(design(frame))
     if gaps.empty:
         parts.append("No gaps.")
     else:

@@ -29,6 +29,7 @@ from signkin.io.eaf import write_eaf
 from signkin.simulate.body import ARM_COORDINATES, ARM_MOVES, HAND_MOVES, Body
 from signkin.simulate.chains import chains
 from signkin.simulate.printed import integers_with, sums_from_print
+from signkin.simulate.strokes import share_done
 from signkin.simulate.surface import design_distances
 
 TERMS = ("constant", "geodesic", "euclidean")  # order of theta
@@ -434,8 +435,7 @@ def minimum_jerk(
     """Return a path (F, D) that rests at each key and moves between them with least jerk."""
     keys, stops = np.asarray(times_s), np.asarray(values)
     k = np.clip(np.searchsorted(keys, at_s, side="right") - 1, 0, len(keys) - 2)
-    tau = np.clip((at_s - keys[k]) / (keys[k + 1] - keys[k]), 0, 1)
-    share = tau**3 * (10 - 15 * tau + 6 * tau**2)
+    share = share_done((at_s - keys[k]) / (keys[k + 1] - keys[k]))
     return np.asarray(stops[k] + share[:, None] * (stops[k + 1] - stops[k]))
 
 

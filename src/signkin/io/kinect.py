@@ -1,0 +1,63 @@
+"""Kinect skeletons as text: a row a frame, 20 joints with x, y, z in metres, 60 columns.
+
+The joints stand in an order of their own; Microsoft's SDK starts at the hips. The order was
+inferred from the lengths between joints, which are those of arms and legs in this order alone; a
+test on the recordings holds it to that. y points up as the sensor stands, z away from it, x to
+its left, which is the right of someone who faces it. The file tells no rate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signkin.errors import SignkinError
+from signkin.io.archive import read_numbers
+from signkin.io.registry import SourceMotion, motion_reader, pick
+
+JOINTS = (
+    "head", "neck", "left_shoulder", "right_shoulder", "left_elbow", "right_elbow",
+    "left_wrist", "right_wrist", "left_hand", "right_hand", "spine", "hip_centre",
+    "left_hip", "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle",
+    "left_foot", "right_foot",
+)  # fmt: skip
+
+
+@motion_reader("kinect")
+def read_kinect(
+    path: Path,
+    *,
+    joints: Mapping[str, str] | None = None,
+    part: str | None = None,
+    face_sensor: bool = False,
+) -> SourceMotion:
+    """Read one recording, a text file or a member of an archive of them.
+
+    joints: canonical name -> name in `JOINTS`. part: the member of the archive.
+    face_sensor: turn the skeleton about the vertical until the shoulders, by their median over
+    the recording, lie along x: for signers who stood at an angle to the sensor.
+    """
+    table = read_numbers(path, part, 3 * len(JOINTS))
+    positions = table.reshape(len(table), len(JOINTS), 3)
+    if face_sensor:
+        positions = _facing(positions)
+    names, chosen = pick(JOINTS, joints)
+    return SourceMotion(
+        rate_hz=None, joints=names, positions=np.ascontiguousarray(positions[:, chosen]), unit="m"
+    )
+
+
+def _facing(positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn positions (F, J, 3) about y, around the hips."""
+    right, left = JOINTS.index("right_shoulder"), JOINTS.index("left_shoulder")
+    x, _, z = np.median(positions[:, right] - positions[:, left], axis=0)
+    width = float(np.hypot(x, z))
+    if width == 0:
+        raise SignkinError("both shoulders at one place", expected="shoulders apart, to turn by")
+    cos, sin = x / width, z / width
+    turn = np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
+    centre = np.median(positions[:, JOINTS.index("hip_centre")], axis=0)
+    return np.asarray((positions - centre) @ turn.T + centre)

@@ -1,0 +1,348 @@
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from scipy.special import logsumexp
+
+from signkin import SignkinError
+from signkin.binning import Posterior, Prior, fit, fit_many, segment_log_evidence
+from signkin.binning.posterior import greedy_maxima
+
+PRIOR = Prior(noise_sd=0.5)
+seeds = st.integers(0, 2**32 - 1)
+few = settings(max_examples=15, deadline=None)
+
+
+def walk(bins, dims, seed, size=1.0):
+    x = np.random.default_rng(seed).normal(size=(bins, dims)).cumsum(0) * size
+    return x - x.mean(0)
+
+
+def same(a: Posterior, b: Posterior, **tolerance) -> None:
+    """Compare all of two posteriors of data in the same coordinates."""
+    assert a.orders == b.orders
+    assert a.log_evidence == pytest.approx(b.log_evidence, **tolerance)
+    for order in a.orders:
+        row, other = a.orders.index(order), b.orders.index(order)
+        by_count = a.log_evidence_by_count[row], b.log_evidence_by_count[other]
+        assert by_count[0] == pytest.approx(by_count[1], **tolerance)
+        for what in ("count_probability", "boundary_probability", "expected_trajectory"):
+            values = [getattr(posterior, what)(order) for posterior in (a, b)]
+            assert values[0] == pytest.approx(values[1], **tolerance)
+        noise = [posterior.noise_covariance(order) for posterior in (a, b)]
+        assert noise[0] == pytest.approx(noise[1], **tolerance)
+
+
+# --- what must not change, and what must
+
+
+@few
+@given(seeds, st.integers(5, 40))
+def test_turning_the_data_turns_the_expectation_and_nothing_else(seed, bins):
+    x = walk(bins, 3, seed)
+    turn = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+    a, b = (fit(data, (0, 2, 4), PRIOR) for data in (x, x @ turn.T))
+    assert a.log_evidence_by_count == pytest.approx(b.log_evidence_by_count, abs=1e-8)
+    for order in (0, 2, 4):
+        assert a.boundary_probability(order) == pytest.approx(
+            b.boundary_probability(order), abs=1e-8
+        )
+        assert a.expected_trajectory(order) @ turn.T == pytest.approx(
+            b.expected_trajectory(order), abs=1e-8
+        )
+        turned = turn @ a.noise_covariance(order) @ turn.T
+        assert turned == pytest.approx(b.noise_covariance(order), abs=1e-8)
+
+
+@few
+@given(seeds, st.integers(2, 40), st.integers(1, 4), st.floats(1e-4, 1e4))
+def test_another_unit_of_length_changes_densities_by_the_jacobian_alone(seed, bins, dims, factor):
+    x = walk(bins, dims, seed)
+    a = fit(x, (0, 1), PRIOR)
+    b = fit(x * factor, (0, 1), Prior(noise_sd=0.5 * factor))
+    shift = bins * dims * np.log(factor)
+    assert b.log_evidence_by_count + shift == pytest.approx(a.log_evidence_by_count, abs=1e-8)
+    assert b.order_probability == pytest.approx(a.order_probability, abs=1e-8)
+    for order in (0, 1):
+        assert b.boundary_probability(order) == pytest.approx(
+            a.boundary_probability(order), abs=1e-8
+        )
+        assert b.expected_trajectory(order) / factor == pytest.approx(
+            a.expected_trajectory(order), abs=1e-8
+        )
+        assert b.noise_covariance(order) / factor**2 == pytest.approx(
+            a.noise_covariance(order), abs=1e-8
+        )
+
+
+@few
+@given(seeds, st.permutations(range(4)))
+def test_the_order_of_the_dimensions_does_not_matter(seed, order):
+    x = walk(25, 4, seed)
+    noise = np.array([0.2, 0.5, 1.0, 3.0])
+    a = fit(x, (0, 3), Prior(noise_sd=tuple(noise)))
+    b = fit(x[:, order], (0, 3), Prior(noise_sd=tuple(noise[order])))
+    assert a.log_evidence_by_count == pytest.approx(b.log_evidence_by_count, abs=1e-8)
+    for s in (0, 3):
+        assert a.expected_trajectory(s)[:, order] == pytest.approx(
+            b.expected_trajectory(s), abs=1e-8
+        )
+        covariance = a.noise_covariance(s)[np.ix_(order, order)]
+        assert covariance == pytest.approx(b.noise_covariance(s), abs=1e-8)
+
+
+@few
+@given(seeds, st.lists(st.integers(0, 9), min_size=1, max_size=4, unique=True))
+def test_orders_asked_together_are_as_each_asked_alone(seed, orders):
+    x = walk(30, 3, seed)
+    together = fit(x, orders, PRIOR)
+    alone = [fit(x, (order,), PRIOR) for order in orders]
+    for i, (order, one) in enumerate(zip(orders, alone, strict=True)):
+        assert together.log_evidence_by_count[i] == pytest.approx(one.log_evidence_by_count[0])
+        assert together.boundary_probability(order) == pytest.approx(
+            one.boundary_probability(order), abs=1e-12
+        )
+        assert together.expected_trajectory(order) == pytest.approx(
+            one.expected_trajectory(order), abs=1e-10
+        )
+    evidence = np.array([one.log_evidence[0] for one in alone])
+    assert together.order_probability == pytest.approx(np.exp(evidence - logsumexp(evidence)))
+
+
+@few
+@given(seeds, st.sampled_from([None, 6]))
+def test_probabilities_are_consistent_with_one_another(seed, longest):
+    found = fit(walk(40, 2, seed), (0, 1, 5), PRIOR, max_segment_bins=longest)
+    assert found.order_probability.sum() == pytest.approx(1)
+    for order in found.orders:
+        count, boundary = found.count_probability(order), found.boundary_probability(order)
+        assert count.sum() == pytest.approx(1)
+        assert ((boundary >= 0) & (boundary <= 1 + 1e-12)).all()
+        assert boundary.sum() == pytest.approx(count @ np.arange(len(count)))
+        assert (np.linalg.eigvalsh(found.noise_covariance(order)) > 0).all()
+
+
+def test_the_evidence_of_one_segment_is_that_of_no_boundary():
+    x = walk(20, 3, 4)
+    found = fit(x, (2,), PRIOR)
+    assert found.log_evidence_by_count[0, 0] == pytest.approx(
+        segment_log_evidence(x, 2, PRIOR)[0, -1], rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_many_are_each_bitwise_as_alone(workers):
+    data = [walk(bins, 3, bins) for bins in (8, 40, 33, 100, 41)]
+    many = fit_many(data, prior=PRIOR, workers=workers)
+    for x, found in zip(data, many, strict=True):
+        alone = fit(x, prior=PRIOR)
+        for field in ("log_evidence_by_count", "log_evidence", "order_probability", "cut_mass",
+                      "_count_probability", "_boundary", "_mean", "_noise"):  # fmt: skip
+            assert getattr(found, field).tobytes() == getattr(alone, field).tobytes()
+
+
+def test_fitting_leaves_the_data_alone_and_keeps_no_tie_to_the_order_of_memory():
+    x = walk(30, 3, 1)
+    before = x.copy()
+    a, b = fit(x, (0, 3), PRIOR), fit(np.asfortranarray(x), (0, 3), PRIOR)
+    assert (x == before).all()
+    same(a, b, rel=0, abs=0)
+    same(a, pickle.loads(pickle.dumps(a)), rel=0, abs=0)
+
+
+# --- what is left out is accounted for
+
+
+@few
+@given(seeds, st.integers(0, 30), st.floats(0.05, 3))
+def test_fewer_counts_agree_and_the_cut_is_within_its_bound(seed, most, size):
+    x = walk(45, 2, seed, size)
+    orders = (0, 1, 4)
+    every, some = fit(x, orders, PRIOR), fit(x, orders, PRIOR, max_count=most)
+    assert some.log_evidence_by_count.shape == (3, most + 1)
+    assert some.log_evidence_by_count == pytest.approx(
+        every.log_evidence_by_count[:, : most + 1], abs=1e-8
+    )
+    assert (every.cut_mass == 0).all()
+    for i, order in enumerate(orders):
+        left_out = every.count_probability(order)[most + 1 :].sum()
+        # The bound is on the share in terms of what was kept.
+        ratio = left_out / max(1 - left_out, 1e-300)
+        assert min(1.0, ratio) <= some.cut_mass[i] * (1 + 1e-9) + 1e-12
+
+
+@pytest.mark.parametrize("longest", [None, 60])
+@pytest.mark.parametrize("size", [0.05, 1.0, 20.0])
+def test_the_band_of_a_long_series_is_within_its_bound_of_every_count(longest, size):
+    bins = 300
+    x = walk(bins, 2, 6, size)
+    orders = (0, 2)
+    options = {"max_segment_bins": longest}
+    band = fit(x, orders, PRIOR, **options)
+    every = fit(x, orders, PRIOR, max_count=bins - 1, **options)
+    assert (every.cut_mass == 0).all()
+    for i, order in enumerate(orders):
+        cut = band.cut_mass[i]
+        assert cut <= 1e-6
+        less = every.log_evidence[i] - band.log_evidence[i]
+        assert -1e-9 <= less <= -np.log1p(-cut) + 1e-9
+        assert band.count_probability(order) == pytest.approx(
+            every.count_probability(order), abs=2 * cut + 1e-9
+        )
+        assert band.boundary_probability(order) == pytest.approx(
+            every.boundary_probability(order), abs=2 * cut + 1e-9
+        )
+        assert band.map_segmentation(order).tolist() == every.map_segmentation(order).tolist()
+        reach = np.abs(x).max()
+        assert band.expected_trajectory(order) == pytest.approx(
+            every.expected_trajectory(order), abs=reach * (4 * cut + 1e-9)
+        )
+
+
+def test_a_cap_that_no_likely_segment_reaches_changes_the_prior_only():
+    x = walk(40, 2, 2, 5.0)
+    free, capped = (fit(x, (0,), PRIOR, max_segment_bins=w) for w in (None, 39))
+    counts = capped.log_evidence_by_count
+    assert np.isneginf(counts[0, 0]) and np.isfinite(counts[0, 1:]).all()
+    assert counts[0, 5:] == pytest.approx(free.log_evidence_by_count[0, 5:], abs=1e-6)
+
+
+# --- hard data
+
+
+@pytest.mark.parametrize("dims", [1, 2, 3, 5])
+def test_constant_data_are_one_segment(dims):
+    found = fit(np.zeros((30, dims)), prior=PRIOR)
+    assert np.isfinite(found.log_evidence).all()
+    assert all(found.map_count(order) == 0 for order in found.orders)
+    assert found.map_segmentation(0).tolist() == [] and found.boundaries(0).tolist() == []
+    assert found.expected_trajectory(3) == pytest.approx(np.zeros((30, dims)), abs=1e-12)
+    assert (np.linalg.eigvalsh(found.noise_covariance(0)) > 0).all()
+
+
+@pytest.mark.parametrize("noise_sd", [1e-9, 1e-3, 1.0])
+def test_collinear_data_have_finite_evidences(noise_sd):
+    line = walk(60, 1, 3) @ np.array([[1.0, 2.0, -1.0]])
+    found = fit(line, prior=Prior(noise_sd=noise_sd))
+    for order in found.orders:
+        assert np.isfinite(found.log_evidence_by_count[order]).all()
+        assert np.isfinite(found.expected_trajectory(order)).all()
+        assert np.isfinite(found.noise_covariance(order)).all()
+
+
+@pytest.mark.parametrize("far", [0.0, 1e6])
+@pytest.mark.parametrize("size", [1e-12, 1.0, 1e3, 1e6])
+def test_no_size_of_the_data_underflows(far, size):
+    found = fit(walk(100, 3, 9, size) + far, (0, 3, 7), PRIOR, max_count=99)
+    assert np.isfinite(found.log_evidence_by_count).all()
+    for order in found.orders:
+        assert found.count_probability(order).sum() == pytest.approx(1)
+        boundary = found.boundary_probability(order)
+        expected = found.count_probability(order) @ np.arange(100)
+        assert boundary.sum() == pytest.approx(expected, abs=1e-6)
+
+
+def test_one_dimension_may_come_as_a_plain_series():
+    x = walk(30, 1, 8)
+    same(fit(x, (0, 2), PRIOR), fit(x[:, 0], (0, 2), PRIOR), rel=0, abs=0)
+
+
+# --- what is asked of a posterior
+
+
+def test_maxima_are_taken_once_each_with_room_around_them():
+    probability = np.array([0, 0.1, 0.9, 0.8, 0.1, 0.2, 0.1, 0, 0.3, 0, 0.05, 0.04])
+    assert greedy_maxima(probability, 2).tolist() == [2, 8]
+    # 0.2 stands within 3 bins of 0.9, 0.05 of 0.3.
+    assert greedy_maxima(probability, 5).tolist() == [2, 8]
+    assert greedy_maxima(probability, 0).tolist() == []
+    assert greedy_maxima(np.zeros(5), 3).tolist() == []
+    assert greedy_maxima(np.zeros(0), 3).tolist() == []
+    assert greedy_maxima(np.array([0.5, 0, 0, 0, 0.5]), 9).tolist() == [0, 4]
+
+
+def test_expectations_that_were_not_asked_for_are_told():
+    found = fit(walk(20, 2, 0), (0, 3), PRIOR, expectations=False)
+    with pytest.raises(SignkinError, match="expectations"):
+        found.expected_trajectory(0)
+    with pytest.raises(SignkinError, match="order 5 was not fitted"):
+        found.count_probability(5)
+    whole = fit(walk(20, 2, 0), (0, 3), PRIOR)
+    assert found.log_evidence.tolist() == whole.log_evidence.tolist()
+
+
+# --- bad input
+
+
+def with_gap():
+    x = walk(20, 3, 0)
+    x[7, 1] = np.nan
+    return x
+
+
+GOOD = walk(20, 3, 0)
+BAD = {
+    "a gap": (with_gap(), {}, "bin 7"),
+    "infinity": (np.where(GOOD.max() == GOOD, np.inf, GOOD), {}, "finite"),
+    "one bin": (GOOD[:1], {"orders": (0,)}, "2 bins or more"),
+    "no bins": (GOOD[:0], {"orders": (0,)}, "2 bins or more"),
+    "no dimensions": (GOOD[:, :0], {}, "dimensions"),
+    "three axes": (GOOD[None], {}, "shape"),
+    "a number": (np.float64(3.0), {"orders": (0,)}, "shape"),
+    "order as many as bins": (GOOD[:5], {"orders": (0, 5)}, "order 5 with 5 bins"),
+    "an order twice": (GOOD, {"orders": (3, 3)}, "different orders"),
+    "no order": (GOOD, {"orders": ()}, "orders"),
+    "a negative order": (GOOD, {"orders": (-1,)}, "orders"),
+    "an order too high": (GOOD, {"orders": (10,)}, "0 to 9"),
+    "no segment": (GOOD, {"max_segment_bins": 0}, "max_segment_bins"),
+    "no prior": (GOOD, {"prior": None}, "prior"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_told_with_the_name_of_the_trajectory(case):
+    x, options, told = BAD[case]
+    with pytest.raises(SignkinError, match=told) as caught:
+        fit(x, **{"prior": PRIOR, **options}, name="take 7")
+    assert "take 7" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ({"noise_sd": 0.0}, "noise_sd"),
+        ({"noise_sd": -1.0}, "noise_sd"),
+        ({"noise_sd": float("nan")}, "noise_sd"),
+        ({"noise_sd": (1.0, 0.0, 1.0)}, "noise_sd"),
+        ({"noise_sd": 1.0, "concentration": 0.0}, "concentration"),
+        ({"noise_sd": 1.0, "time_unit": "frame"}, "bin, second, trajectory"),
+        ({"noise_sd": 1.0, "scale": "printed"}, "expected, plain"),
+    ],
+)
+def test_a_prior_that_is_no_density_is_refused(words, told):
+    with pytest.raises(SignkinError, match=told):
+        Prior(**words)
+
+
+@pytest.mark.parametrize(
+    ("prior", "told"),
+    [
+        (Prior(noise_sd=1.0, dof=2.0), "more than 2 for 3 dimensions"),
+        (Prior(noise_sd=(1.0, 2.0)), "one value, or 3"),
+        (Prior(noise_sd=1.0, time_unit="second"), "dt_s"),
+    ],
+)
+def test_a_prior_that_does_not_fit_the_data_is_refused(prior, told):
+    with pytest.raises(SignkinError, match=told):
+        fit(GOOD, prior=prior)
+
+
+def test_many_name_the_bad_one():
+    data = [GOOD, with_gap()]
+    with pytest.raises(SignkinError, match="trajectory 2"):
+        fit_many(data, prior=PRIOR)
+    with pytest.raises(SignkinError, match="take b"):
+        fit_many(data, prior=PRIOR, names=["take a", "take b"], workers=2)

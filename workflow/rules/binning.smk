@@ -1,0 +1,153 @@
+# Endres, Meirovitch, Flash & Giese 2013: single signs, ground truth, binning, tables and figures.
+
+
+def of_shards(pattern):
+    """Return an input function: the files of all shards of a corpus."""
+    return lambda w: collect(pattern, corpus=w.corpus, shard=PLAN.shards(w.corpus))
+
+
+STUDY = "<results>/endres2013/{corpus}"
+SHARD = STUDY + "/shards/{shard}"
+
+
+rule single_signs:
+    """Wrist paths into bins, as recorded and with power-law timing (2.2 to 2.4)."""
+    input:
+        recordings=rules.ingest.output.recordings,
+    output:
+        trajectories=SHARD + "/trajectories.parquet",
+        ground_truth=SHARD + "/ground_truth.csv",
+        rejected_draws=SHARD + "/rejected_draws.csv",
+        binning_left_out=SHARD + "/not_cut.csv",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/single_signs.log",
+    params:
+        code=PLAN.digest("single_signs.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/single_signs.py"
+
+
+rule bin_single_signs:
+    """Bayesian binning with every polynomial order (2.5, 3)."""
+    input:
+        trajectories=rules.single_signs.output.trajectories,
+    output:
+        binning=SHARD + "/binning.csv",
+        truths=SHARD + "/fitted_truths.csv",
+        left_out=SHARD + "/not_binned.csv",
+        posteriors=SHARD + "/posteriors.parquet",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/binning.log",
+    params:
+        code=PLAN.digest("bin_single_signs.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={
+            k: v
+            for k, v in config["binning"].items()
+            if k not in ("sensitivity", "continuous")
+        },
+    script:
+        "../scripts/bin_single_signs.py"
+
+
+rule endres_tables:
+    """Order posteriors, hit rates, chance lines and tests, for a whole corpus (3.1 to 3.3)."""
+    input:
+        binning=of_shards(rules.bin_single_signs.output.binning),
+        fitted_truths=of_shards(rules.bin_single_signs.output.truths),
+        ground_truth=of_shards(rules.single_signs.output.ground_truth),
+        rejected_draws=of_shards(rules.single_signs.output.rejected_draws),
+        not_cut=of_shards(rules.single_signs.output.binning_left_out),
+        not_binned=of_shards(rules.bin_single_signs.output.left_out),
+        trajectories=of_shards(rules.single_signs.output.trajectories),
+    output:
+        binning=STUDY + "/binning.csv",
+        truths=STUDY + "/fitted_truths.csv",
+        ground_truth=STUDY + "/ground_truth.csv",
+        rejected=STUDY + "/rejected_draws.csv",
+        left_out=STUDY + "/left_out.csv",
+        orders=STUDY + "/order_posteriors.csv",
+        rates=STUDY + "/hit_rates.csv",
+        lines=STUDY + "/chance_lines.csv",
+        tests=STUDY + "/order_tests.csv",
+    log:
+        "<logs>/endres2013/{corpus}/tables.log",
+    params:
+        code=PLAN.digest("endres_tables.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            k: config["binning"][k]
+            for k in ("window_s", "bootstrap_draws", "chance_trajectories")
+        },
+    script:
+        "../scripts/endres_tables.py"
+
+
+rule endres_figures:
+    """Figures 1, 3 to 7 and A1, with the numbers drawn in them."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        trajectories=of_shards(rules.single_signs.output.trajectories),
+        posteriors=of_shards(rules.bin_single_signs.output.posteriors),
+        ground_truth=rules.endres_tables.output.ground_truth,
+        order_posteriors=rules.endres_tables.output.orders,
+        hit_rates=rules.endres_tables.output.rates,
+        chance_lines=rules.endres_tables.output.lines,
+        order_tests=rules.endres_tables.output.tests,
+    output:
+        svg=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.svg",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        pdf=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.pdf",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        csv=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.csv",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        captions=STUDY + "/captions.json",
+    log:
+        "<logs>/endres2013/{corpus}/figures.log",
+    params:
+        code=PLAN.digest("endres_figures.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/endres_figures.py"
+
+
+rule binning_scheme:
+    """The model as a drawing (Fig. 2)."""
+    output:
+        svg="<results>/endres2013/fig02.svg",
+        pdf="<results>/endres2013/fig02.pdf",
+        csv="<results>/endres2013/fig02.csv",
+    log:
+        "<logs>/endres2013/scheme.log",
+    params:
+        code=PLAN.digest("binning_scheme.py"),
+    script:
+        "../scripts/binning_scheme.py"
+
+
+rule endres2013:
+    """Tables and figures of Endres et al. 2013 for every corpus of single signs."""
+    input:
+        collect(rules.endres_tables.output, corpus=PLAN.single_signs),
+        collect(rules.endres_figures.output, corpus=PLAN.single_signs),
+        rules.binning_scheme.output,
