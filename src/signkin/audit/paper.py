@@ -166,7 +166,8 @@ def read_paper(folder: str | Path) -> Paper:
         Curve(
             claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
             label=c["label"], reads=c["reads"], where=c.get("where", ""),
-            reference=c.get("reference", ""), holds=c.get("holds", ""), line=lines[("multiverse", i)],
+            reference=c.get("reference", ""), holds=c.get("holds", ""),
+            line=lines[("multiverse", i)],
         )
         for i, c in enumerate(content.get("multiverse", []))
     )  # fmt: skip

@@ -7,6 +7,7 @@ claim, of another claim (`N02.mean`), or digits in quotes.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor
 
@@ -15,8 +16,8 @@ from signkin.audit.expressions import evaluate
 from signkin.audit.findings import CONSISTENT, INCONSISTENT, UNDECIDABLE, Finding
 from signkin.audit.grim import grain_of
 from signkin.audit.grim import grim as grim_of
+from signkin.audit.grimmer import DIVISORS, possible
 from signkin.audit.grimmer import grimmer as grimmer_of
-from signkin.audit.grimmer import possible
 from signkin.audit.paper import PrintedRow
 from signkin.audit.registry import OnPrint, on_print
 from signkin.audit.rounding import Interval, allowed, as_interval, count, exactly, shown
@@ -110,26 +111,39 @@ def grimmer(
     context: OnPrint,
     table: str,
     grain: str,
-    divisor: str = "either",
+    divisor: str = "same",
     suffixes: Sequence[str] = ("",),
     n: str = "n",
     mean: str = "mean",
     sd: str = "sd",
 ) -> list[Finding]:
-    """Each row's mean and SD are possible for its n on the grain (exact GRIMMER)."""
-    out = []
+    """Each row's mean and SD are possible for its n on the grain (exact GRIMMER).
+
+    divisor: n-1, n, either (a row at a time), or same: the one that most rows pass with, for
+    all rows.
+    """
+    found = []
     for row, suffix, name in _filled(context, table, n, suffixes):
         cells = [row[f"{c}{suffix}"] for c in (mean, sd, n)]
+        asked = "either" if divisor == "same" else divisor
         try:
-            found = grimmer_of(cells[0], cells[1], cells[2], grain, divisor)
+            found.append((row, cells, name, grimmer_of(cells[0], cells[1], cells[2], grain, asked)))
         except SignkinError as error:
             raise _at(row, error) from None
+    many = [result for _, cells, _, result in found if cells[2] != "1"]
+    passed = {d: sum(bool(result.pairs.get(d)) for result in many) for d in DIVISORS}
+    common = max(DIVISORS, key=lambda d: passed[d])
+    source = context.source(table)
+    out = []
+    for row, cells, name, result in found:
         if cells[2] == "1":
-            found_why = f"{row.file.name}, {row.place}: {found.why}"
-            out.append(Finding(found.verdict, found_why, cells[1], item=name,
-                               source=context.source(table)))  # fmt: skip
+            why = f"{row.file.name}, {row.place}: {result.why}"
+            out.append(Finding(result.verdict, why, cells[1], source=source, item=name))
+        elif divisor == "same" and result.verdict == CONSISTENT and not result.pairs[common]:
+            why = f"{result.why}, where {passed[common]} of {len(many)} rows have {common}"
+            out.append(_item(replace(result, verdict=INCONSISTENT, why=why), name, source))
         else:
-            out.append(_item(found, name, context.source(table)))
+            out.append(_item(result, name, source))
     return out
 
 
@@ -193,6 +207,11 @@ def left_out(
         raise SignkinError(f"{table} has {len(found)} rows {row!r}", expected="one")
     cells = found[0]
     ns, means, sds = ([cells[f"{c}{end}"] for end in ("", suffix)] for c in (n, mean, sd))
+    source = context.source(table)
+    if count(ns[0]) != count(ns[1]) + 1:
+        why = f"row {row} of {table} has n = {ns[0]} with and {ns[1]} without the value left out"
+        verdict = UNDECIDABLE if at_most or at_least else INCONSISTENT
+        return [Finding(verdict, why, f"n = {ns[0]} ({ns[1]})", source=source)]
     try:
         exact = summaries.groups(ns, means, sds, grain)
         rough = summaries.groups(ns, means, sds)
@@ -200,7 +219,6 @@ def left_out(
         rough_sum, rough_squares = summaries.left_out(*rough)
     except SignkinError as error:
         raise _at(cells, error) from None
-    source = context.source(table)
     if at_most or at_least:
         bound = allowed(context.text(at_most or at_least))
         value = rough_sum
@@ -252,10 +270,12 @@ def range_possible(
         end = suffix if suffix and row[f"{n}{suffix}"] not in ABSENT else ""
         cells = [row[f"{c}{end}"] for c in (n, mean, sd)]
         if cells[0] == "1":
-            fits: bool | None = any(
-                (bottom is None or s >= bottom) and (top is None or s <= top)
-                for s in grim_of(cells[1], 1, grain).sums
-            )
+            sums = grim_of(cells[1], 1, grain).sums
+            fits: bool | None = None
+            if sums:
+                fits = any(
+                    (bottom is None or s >= bottom) and (top is None or s <= top) for s in sums
+                )
         else:
             pairs = grimmer_of(cells[1], cells[2], cells[0], grain, "n-1").pairs.get("n-1", ())
             answers = [possible(int(cells[0]), s, q, bottom, top) for s, q in pairs]
