@@ -87,6 +87,7 @@ rule audit_page:
         papers=PLAN.claim_files(),
     output:
         page="<results>/audit/index.html",
+        printed=directory("<results>/audit/printed"),
     log:
         "<logs>/audit/page.log",
     params:

@@ -219,6 +219,11 @@ def left_out(
         rough_sum, rough_squares = summaries.left_out(*rough)
     except SignkinError as error:
         raise _at(cells, error) from None
+    if grain is not None:
+        for size, middle, spread in zip(ns, means, sds, strict=True):
+            alone = grimmer_of(middle, spread, size, grain, "n-1")
+            if alone.verdict == INCONSISTENT:
+                return [Finding(INCONSISTENT, alone.why, f"{middle} ({spread})", source=source)]
     if at_most or at_least:
         bound = allowed(context.text(at_most or at_least))
         value = rough_sum

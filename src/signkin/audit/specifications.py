@@ -113,10 +113,10 @@ def _decided(holds: pd.Series, levels: pd.Series) -> float:
 
 def _told(specs: pd.DataFrame, decided: Mapping[str, float]) -> str:
     if specs["holds"].all():
-        return "no choice decides: it holds in all"
+        return "nothing decides: it holds in all"
     if not specs["holds"].any():
-        return "no choice decides: it holds in none"
+        return "nothing decides: it holds in none"
     if not decided:
         return "one specification"
     name = max(decided, key=lambda choice: decided[choice])
-    return f"the choice that decides most is {name} ({decided[name]:.0%} of the variance)"
+    return f"what decides most is {name} ({decided[name]:.0%} of the variance)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from textwrap import wrap
 
 import numpy as np
 import pandas as pd
@@ -22,7 +23,7 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
     values = specs["estimate"].to_numpy(dtype=float)
     bounds = specs["reference"].to_numpy(dtype=float)
     if np.isfinite(bounds).any():
-        ax.scatter(at, bounds, marker="_", s=2 * size, color=ACCENT, lw=1, label="set against")
+        ax.scatter(at, bounds, marker="_", s=2 * size, color=ACCENT, lw=1, label="bound")
     elif zero:
         ax.axhline(0, color="0.6", lw=0.8)
     ax.scatter(at[holds], values[holds], s=size, color=RIGHT, lw=0, label="holds")
@@ -30,17 +31,15 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
         at[~holds], values[~holds], s=size, facecolor="white", edgecolor=NEUTRAL, lw=0.7,
         label="fails",
     )  # fmt: skip
-    ax.set(ylabel=label, xlim=(-1, len(specs)))
-    ax.tick_params(labelbottom=False)
+    ax.set(ylabel="\n".join(wrap(label, 30)), xlim=(-1, len(specs)))
+    ax.tick_params(axis="x", labelbottom=False, length=0)
     return ax
 
 
-def plot_choices(
-    specs: pd.DataFrame, levels: Mapping[str, Sequence[str]], names: bool = True, *, ax: Axes
-) -> Axes:
+def plot_choices(specs: pd.DataFrame, levels: Mapping[str, Sequence[str]], *, ax: Axes) -> Axes:
     """Draw which level of each choice every specification has, below its estimate.
 
-    levels: choice -> its levels in order. names: whether to write them on the left.
+    levels: choice -> its levels in order.
     """
     rows: list[tuple[str, str]] = []
     labels: list[str] = []
@@ -57,9 +56,9 @@ def plot_choices(
             ax.vlines(at[part], y - 0.36, y + 0.36, color=colour, lw=0.9)
     for edge in edges[1:]:
         ax.axhline(edge - 0.5, color=PALE, lw=0.6)
-    ax.set_yticks(np.arange(len(rows)), labels if names else [""] * len(rows))
+    ax.set_yticks(np.arange(len(rows)), labels)
     ax.set(ylim=(len(rows) - 0.5, -0.5), xlim=(-1, len(specs)))
-    ax.set_xlabel(f"{len(specs)} specifications, in order of the estimate")
+    ax.set_xlabel(f"{len(specs)} specifications")
     ax.tick_params(axis="y", length=0)
     ax.tick_params(axis="x", labelbottom=False, length=0)
     return ax

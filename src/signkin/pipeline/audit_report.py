@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -87,7 +87,7 @@ def _heading(evidence: str, kind: str) -> str:
 
 def _overview(papers: Sequence[Paper], claims: pd.DataFrame, folder: Path) -> Section:
     views: list[TableView | FigureView] = []
-    notices = []
+    silent_in = []
     for paper in papers:
         rows = claims[claims["paper"] == paper.folder.name]
         kinds = rows.drop_duplicates("evidence").set_index("evidence")["evidence_kind"]
@@ -95,9 +95,9 @@ def _overview(papers: Sequence[Paper], claims: pd.DataFrame, folder: Path) -> Se
         shown = [e for e in kinds.index if e in tested]
         silent = [e for e in kinds.index if e not in tested]
         if silent:
-            notices.append(
-                f"{paper.title}: no claim can be tested on {', '.join(silent)}: the tables that "
-                "the claims need are not there."
+            silent_in.append(
+                f"No claim of {paper.title} can be tested on {', '.join(silent)}: these have none "
+                "of the tables that the claims need, and no column here."
             )
         wide = rows.pivot(index="id", columns="evidence", values="verdict").reset_index()
         first = rows.drop_duplicates("id").set_index("id")
@@ -121,7 +121,7 @@ def _overview(papers: Sequence[Paper], claims: pd.DataFrame, folder: Path) -> Se
             )
         )
     views.append(_counts(claims, folder / "claims.csv"))
-    return Section("verdicts", "Verdicts", exhibits=views, notices=notices)
+    return Section("verdicts", "Verdicts", text=silent_in, exhibits=views)
 
 
 def _counts(claims: pd.DataFrame, file: Path) -> TableView:
@@ -148,74 +148,118 @@ def _claims(paper: Paper, claims: pd.DataFrame, checks: pd.DataFrame, folder: Pa
     of_claims = claims[claims["paper"] == paper.folder.name]
     of_checks = checks[checks["paper"] == paper.folder.name]
     tested = of_claims[of_claims["verdict"] != NOTHING]["evidence"].unique()
-    views = [
-        _claim(claim, of_claims[of_claims["id"] == claim.id],
-               of_checks[of_checks["id"] == claim.id], tested, folder)
-        for claim in paper.claims
-    ]  # fmt: skip
+    views: list[TableView | FigureView] = []
+    for claim in paper.claims:
+        found = of_checks[of_checks["id"] == claim.id]
+        views.append(_claim(claim, of_claims[of_claims["id"] == claim.id], found, tested, folder))
+        views += _rows(claim, found, folder)
     return Section(
         paper.folder.name,
         f"{paper.title}, claim by claim",
         text=(
             "For each claim its checks: how the claim is read, the number recomputed with what "
-            "rounding allows (on corpora: 95 % by bootstrap), and why the verdict is what it is.",
+            "rounding allows (on corpora: 95 % by bootstrap, where it is an estimate), and why the "
+            "finding is what it is.",
         ),
         exhibits=views,
     )
 
 
+FEW = 3  # findings of one check that are told one by one
+COLUMNS = {
+    "evidence": ("evidence", ""),
+    "item": ("row", ""),
+    "reads": ("how it is read", ""),
+    "printed": ("printed", ""),
+    "recomputed": ("recomputed", ""),
+    "interval": ("interval", ""),
+    "verdict": ("finding", "verdict"),
+    "why": ("why", ""),
+    "source": ("table", "link"),
+}
+
+
 def _claim(
     claim: Claim, verdicts: pd.DataFrame, checks: pd.DataFrame, tested: Sequence[str], folder: Path
 ) -> TableView:
+    """Return a claim's checks, one row each; of checks of many rows, how many are so."""
     rows = []
     for verdict in verdicts.itertuples(index=False):
         if verdict.evidence != PRINT and verdict.evidence not in tested:
             continue
-        heading = _heading(str(verdict.evidence), str(verdict.evidence_kind))
+        about = {"evidence": _heading(str(verdict.evidence), str(verdict.evidence_kind))}
         found = checks[checks["evidence"] == verdict.evidence]
         if found.empty:
-            rows.append({"evidence": heading, "verdict": NOTHING, "why": verdict.note})
-            continue
-        for i, row in enumerate(found.to_dict("records")):
-            rows.append({**row, "evidence": heading if i == 0 else "", "reads": row["reads"]})
-    frame = pd.DataFrame(
-        rows, columns=["evidence", "item", "reads", "recomputed", "interval", "verdict", "why",
-                       "source"],
-    ).fillna("")  # fmt: skip
-    # A reading is told once for the rows of one check.
-    frame.loc[frame["reads"].eq(frame["reads"].shift()) & frame["evidence"].eq(""), "reads"] = ""
-    frame["source"] = frame["source"].map(_relative)
-    columns = {
-        "evidence": ("evidence", ""),
-        "item": ("row", ""),
-        "reads": ("how it is read", ""),
-        "recomputed": ("recomputed", ""),
-        "interval": ("may be", ""),
-        "verdict": ("finding", "verdict"),
-        "why": ("why", ""),
-        "source": ("table", "link"),
-    }
-    for optional in ("item", "recomputed", "interval", "source"):
-        if not frame[optional].ne("").any():
-            del columns[optional]
-    printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
+            rows.append({**about, "verdict": NOTHING, "why": verdict.note})
+        for _, part in found.groupby((found["reads"] != found["reads"].shift()).cumsum()):
+            if len(part) <= FEW:
+                rows += [{**row, **about} for row in part.to_dict("records")]
+            else:
+                rows.append({**part.iloc[0].to_dict(), **about, **_many(part)})
+    columns = {name: head for name, head in COLUMNS.items() if name != "printed"}
     caption = f"Section {claim.location}." if claim.location[0].isdigit() else f"{claim.location}."
+    printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
     caption += f" Printed: {printed}." if printed else ""
     caption += f" A corpus needs: {claim.needs}."
+    return _view(claim.id, claim.claim, caption, rows, columns, folder)
+
+
+def _many(part: pd.DataFrame) -> dict[str, str]:
+    counts = part["verdict"].value_counts()
+    bad = [v for v in ("inconsistent", "fails") if v in counts]
+    best = bad[0] if bad else str(counts.index[0])
+    told = ", ".join(f"{n} {verdict}" for verdict, n in counts.items())
+    others = part[part["verdict"] != counts.index[0]]
+    why = [f"{row.item}: {row.why}" for row in others.itertuples()]
+    return {
+        "item": f"{len(part)} rows",
+        "recomputed": "",
+        "interval": "",
+        "verdict": best,
+        "why": "; ".join([f"{told} (below, row by row)", *why]),
+    }
+
+
+def _rows(claim: Claim, checks: pd.DataFrame, folder: Path) -> Iterator[TableView]:
+    """Yield the findings of checks of many rows, row by row."""
+    published = checks[checks["evidence"] == PRINT]
+    for check, part in published.groupby("check", sort=False):
+        if len(part) > FEW:
+            names = ("item", "printed", "recomputed", "interval", "verdict", "why")
+            yield _view(
+                "", f"{claim.id}, row by row: {check}", str(part["reads"].iloc[0]),
+                part.to_dict("records"), {name: COLUMNS[name] for name in names}, folder, FEW,
+            )  # fmt: skip
+
+
+def _view(
+    label: str,
+    title: str,
+    caption: str,
+    rows: Sequence[Mapping[str, object]],
+    columns: Mapping[str, tuple[str, str]],
+    folder: Path,
+    most: int = 12,
+) -> TableView:
+    frame = pd.DataFrame(rows, columns=list(COLUMNS)).fillna("")
+    frame["source"] = frame["source"].map(_address)
+    kept = {
+        name: head
+        for name, head in columns.items()
+        if frame[name].ne("").any() or name in ("verdict", "why")
+    }
     return TableView(
-        label=claim.id,
-        title=claim.claim,
-        caption=caption,
-        frame=frame,
-        columns=columns,
-        file=folder / "checks.csv",
-        most=9,
-    )
+        label=label, title=title, caption=caption, frame=frame, columns=kept,
+        file=folder / "checks.csv", most=most,
+    )  # fmt: skip
 
 
-def _relative(source: str) -> str:
-    """Return a result table's address as seen from results/audit; other files have none."""
-    return source.replace("results/", "../", 1) if source.startswith("results/") else ""
+def _address(source: str) -> str:
+    """Return a table's address as seen from results/audit: results, or the copy of the print."""
+    for start, to in (("results/", "../"), ("papers/", "printed/")):
+        if source.startswith(start):
+            return source.replace(start, to, 1)
+    return source
 
 
 def _curves(papers: Sequence[Paper], folder: Path) -> Iterator[tuple[Paper, Curve, Path]]:
@@ -231,6 +275,7 @@ def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]]) -> Section:
     for paper, curve, base in curves:
         levels_file = base.with_name(f"{base.name}_levels.csv")
         levels = read_table(levels_file, "specifications")
+        levels = levels.sort_values("choice", key=lambda c: c != "all", kind="stable")
         whole = levels[levels["choice"] == "all"]
         told = "; ".join(
             f"{row.corpus}: holds in {row.holding} of {row.specifications} ({row.share:.0%}), "
@@ -268,7 +313,7 @@ def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]]) -> Section:
                     "share_decided": ("decides", ".2f"),
                 },
                 file=levels_file,
-                most=0,
+                most=len(whole),
             )
         )
     return Section(

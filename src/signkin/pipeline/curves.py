@@ -91,7 +91,7 @@ def _drawn(
             axes[1, column].tick_params(labelleft=False)
         share = found["holds"].mean()
         kind = "simulated" if corpora[corpus] else "real"
-        axes[0, column].set_title(f"{corpus} ({kind})\nholds in {share:.0%}", loc="left")
+        axes[0, column].set_title(f"{corpus}\n({kind}), holds in {share:.0%}", loc="left")
     handles: dict[str, object] = {}
     for ax in axes[0]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):

@@ -148,7 +148,7 @@ def _add(
                 start, end = refined[before, 1], refined[before + 1, 0]
                 to.durations.append(np.round(end - start, 9))
                 was = manual[before + 1, 0] - manual[before, 1]
-                to.changes.append(np.round(np.abs(end - start - was), 9))
+                to.changes.append(np.round(np.abs(end - start - was), 6))
                 geodesic, euclidean = _distances(filled, orientations, start, end, arms[hand])
                 to.geodesic.append(geodesic)
                 to.euclidean.append(euclidean)
