@@ -112,7 +112,11 @@ def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
         return [_Done(check, run(check, on_print)) for check in claim.published]
     on_corpus = OnCorpus(paper, claim, evidence)
     out = []
+    kind = SIMULATED if evidence.simulated else REAL
     for check in claim.corpora:
+        if check.only and check.only != kind:
+            out.append(_Done(check, (), f"a check for {check.only} corpora"))
+            continue
         try:
             out.append(_Done(check, run(check, on_corpus)))
         except Missing as missing:

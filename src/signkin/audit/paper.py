@@ -15,6 +15,7 @@ import yaml
 from signkin.errors import SignkinError, listed
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow" / "schemas" / "claims.schema.yaml"
+OWN = ("check", "reads", "decisive", "only")  # keys of a check that are no arguments of it
 GUIDE = "See docs/claims.md."
 
 
@@ -51,6 +52,7 @@ class Check:
     arguments: Mapping[str, Any]
     reads: str
     decisive: bool
+    only: str  # `simulated` or `real`: corpora it can be run on; empty for all
     line: int
 
 
@@ -189,11 +191,10 @@ def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) ->
             checks[side] = tuple(
                 Check(
                     name=c["check"],
-                    arguments={
-                        k: v for k, v in c.items() if k not in ("check", "reads", "decisive")
-                    },
+                    arguments={k: v for k, v in c.items() if k not in OWN},
                     reads=c.get("reads", ""),
                     decisive=c.get("decisive", True),
+                    only=c.get("only", ""),
                     line=lines[("claims", i, side, "checks", j)],
                 )
                 for j, c in enumerate(claim[side].get("checks", []))

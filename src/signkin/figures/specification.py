@@ -31,7 +31,7 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
         at[~holds], values[~holds], s=size, facecolor="white", edgecolor=NEUTRAL, lw=0.7,
         label="fails",
     )  # fmt: skip
-    ax.set(ylabel="\n".join(wrap(label, 30)), xlim=(-1, len(specs)))
+    ax.set(ylabel="\n".join(wrap(label, 22)), xlim=(-1, len(specs)))
     ax.tick_params(axis="x", labelbottom=False, length=0)
     return ax
 
