@@ -1,6 +1,7 @@
 # make               set up and run the main job: tables, figures and the report
 # make DATA=folder   the same with the real recordings of a folder (or set SIGNKIN_DATA)
 # make test          set up and pass the tests
+# make bench         time the binning engine beside its peers (benchmarks/README.md)
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
 
@@ -12,7 +13,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all test lint unit lock clean
+.PHONY: all test lint unit bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -29,8 +30,8 @@ $(VENV)/ready: requirements.lock pyproject.toml
 test: lint unit
 
 lint: $(VENV)/ready
-	$(BIN)/ruff check src workflow/scripts tests docs
-	$(BIN)/ruff format --check src workflow/scripts tests docs
+	$(BIN)/ruff check src workflow/scripts tests docs benchmarks
+	$(BIN)/ruff format --check src workflow/scripts tests docs benchmarks
 	$(BIN)/snakefmt --check Snakefile workflow/rules
 	$(BIN)/mypy src
 	$(BIN)/lint-imports
@@ -38,6 +39,25 @@ lint: $(VENV)/ready
 unit: $(VENV)/ready
 	.ci/chromium
 	$(BIN)/pytest -n 2 --dist worksteal $(ARGS)
+
+# PyTorch, which one peer wants, is no part of the lock: see benchmarks/README.md.
+TORCH ?= torch==2.13.0
+BENCH := .venv-bench
+
+bench: $(BENCH)/ready
+	$(BENCH)/bin/python -m benchmarks $(ARGS)
+
+$(BENCH)/ready: requirements-bench.lock
+	$(PYTHON) -m venv --without-pip $(BENCH)
+	$(subst $(BIN),$(BENCH)/bin,$(PIP)) --require-hashes --no-deps -r requirements-bench.lock
+	$(subst $(BIN),$(BENCH)/bin,$(PIP)) --no-deps --no-build-isolation --editable .
+	-$(subst $(BIN),$(BENCH)/bin,$(PIP)) --no-deps $(TORCH)
+	@touch $@
+
+bench-lock:
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --quiet \
+	  --constraint requirements.lock --override benchmarks/overrides.txt \
+	  requirements-bench.in -o requirements-bench.lock
 
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --all-extras \

@@ -14,6 +14,8 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/ingest.smk"
 include: "workflow/rules/kinematics.smk"
 include: "workflow/rules/coarticulation.smk"
+include: "workflow/rules/binning.smk"
+include: "workflow/rules/durations.smk"
 include: "workflow/rules/audit.smk"
 include: "workflow/rules/report.smk"
 
@@ -24,4 +26,6 @@ rule all:
     input:
         "<results>/report/index.html",
         rules.naert2017.input,
+        rules.endres2013.input,
+        rules.naert2017_durations.input,
         rules.audit.input,

@@ -62,7 +62,7 @@ def measures(
     intervals, minima = read.table("intervals"), found.table("minima", corpus.unit)
     bounds = coarticulation.boundaries(corpus, names, intervals, minima, config["refinement"])
     frames = {str(f["recording"].iloc[0]): f for f in found.frames}
-    _, raw = coarticulation.transitions(corpus, read.recordings, frames, intervals, bounds, config)
+    _, raw, _ = coarticulation.transitions(corpus, read.recordings, frames, intervals, bounds, config)
     moves = with_normalised(raw, corpus.unit)
     quality, _ = coarticulation.refinement(
         corpus, read.table("recordings"), intervals, minima, bounds,

@@ -384,6 +384,140 @@ TABLES: dict[str, Table] = {
             ),
         ),
         Table(
+            "transition_speeds",
+            "results/naert2017/<corpus>/transition_speeds.csv",
+            "a transition between manual tags with the mean speeds of the signs around it "
+            "(Naert et al. 2017, section 5.2, eq. 3)",
+            (
+                *_LEAD,
+                Column("transition", "", "place of the transition in its recording, from 1"),
+                *(
+                    Column(f"{side}_{kind}", unit, meaning.format(which))
+                    for kind, unit, meaning in (
+                        (
+                            "linear_speed_{u}_per_s",
+                            "m/s or px/s",
+                            "mean speed over joints and frames of the sign {}, low-passed",
+                        ),
+                        (
+                            "angular_speed_rad_per_s",
+                            "rad/s",
+                            "same of the orientations, the angle as eq. 1 has it (half)",
+                        ),
+                    )
+                    for side, which in (("previous", "before"), ("next", "after"))
+                ),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "statistics",
+            "results/naert2017/<corpus>/statistics.csv",
+            "a test on the durations between manual tags, with one of its effect sizes (Naert et "
+            "al. 2017, section 5.1); an empty number is one that the test does not have, or whose "
+            "note says what is missing",
+            (
+                _text("corpus", "corpus"),
+                _text(
+                    "question",
+                    "type (four digits), hands, symmetry, change of hands (Fig. 10) or distance",
+                ),
+                _text("outliers", "none (the rule finds none), kept or left out"),
+                _text("test", "test; `in words`: what follows from the others"),
+                _text("comparison", "what is compared with what"),
+                _text("statistic_name", "F, W, H, t, r, chi squared, SD (s) or difference (s)"),
+                Column("statistic", "see statistic_name", "value of the statistic"),
+                Column("df1", "", "degrees of freedom, of the numerator"),
+                Column("df2", "", "degrees of freedom, of the error"),
+                Column("p", "", "p, adjusted for all pairs in post-hoc tests"),
+                _text(
+                    "effect_name",
+                    "kind of the effect size; (partial) eta and omega squared "
+                    "estimate the same share of variance, and share its interval",
+                ),
+                Column("effect", "see effect_name", "effect size"),
+                Column("effect_low", "see effect_name", "its interval (config: durations.alpha)"),
+                Column("effect_high", "see effect_name", "its interval"),
+                Column("n", "", "transitions"),
+                _text("assumptions", "checks of the test's assumptions"),
+                Column("power", "", "power of this test at this n, for the effect in power_for"),
+                _text("power_for", "effect that the power is told for"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "duration_coefficients",
+            "results/naert2017/<corpus>/duration_coefficients.csv",
+            "a coefficient of a duration model (Naert et al. 2017, section 5.2)",
+            (
+                _text("corpus", "corpus"),
+                _text("model", "LINEAR or SURFACE"),
+                _text("coefficient", "constant, mean_distance, geodesic or euclidean"),
+                _text("unit", "unit of the coefficient"),
+                _text("published", "as printed, empty where the paper prints none"),
+                Column("fitted", "see unit", "least squares on the manual transitions"),
+                Column("standard_error", "see unit", "its standard error"),
+                Column("low", "see unit", "interval by Student's t (config: durations.alpha)"),
+                Column("high", "see unit", "interval by Student's t"),
+                Column("bootstrap_low", "see unit", "bootstrap interval"),
+                Column("bootstrap_high", "see unit", "bootstrap interval"),
+                _text("published_inside", "yes or no: whether both intervals hold the printed one"),
+                Column("n", "", "transitions"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "duration_models",
+            "results/naert2017/<corpus>/duration_models.csv",
+            "a duration model and how it was tested (Naert et al. 2017, section 5.2)",
+            (
+                _text("corpus", "corpus"),
+                _text(
+                    "model",
+                    "MEAN (baseline), SIMPLE, SIMPLE_BOUNDED, LINEAR, SURFACE or "
+                    "SURFACE_PRINTED (theta as printed, nothing learnt)",
+                ),
+                _text("evaluation", "in_sample, leave_one_out or leave_one_recording_out"),
+                Column("n", "", "transitions, the same for all models of a corpus"),
+                Column("mean_error_s", "s", "mean absolute error (eq. 5)"),
+                Column("mean_error_low_s", "s", "its bootstrap interval"),
+                Column("mean_error_high_s", "s", "its bootstrap interval"),
+                Column("gain_s", "s", "mean error of MEAN in the same evaluation less this one's"),
+                Column("gain_low_s", "s", "its bootstrap interval (paired)"),
+                Column("gain_high_s", "s", "its bootstrap interval (paired)"),
+                Column("rmse_s", "s", "root of the mean squared error"),
+                Column("bias_s", "s", "mean of predicted - true; above 0: too long"),
+                Column("longest_s", "s", "longest prediction"),
+                Column("share_above_bound", "", "share predicted longer than durations.highest_s"),
+                _NOTE,
+            ),
+        ),
+        Table(
+            "duration_predictions",
+            "results/naert2017/<corpus>/fig_durations.csv",
+            "a transition as a duration model predicts it when it learnt from all others",
+            (
+                *_LEAD,
+                Column("transition", "", "place of the transition in its recording, from 1"),
+                _text("model", "as in duration_models"),
+                Column("duration_s", "s", "duration between manual tags"),
+                Column("predicted_s", "s", "prediction, leave-one-out"),
+            ),
+        ),
+        Table(
+            "surface_points",
+            "results/naert2017/<corpus>/fig11.csv",
+            "a transition and the fitted surface at its distances (Naert et al. 2017, Fig. 11)",
+            (
+                *_LEAD,
+                Column("transition", "", "place of the transition in its recording, from 1"),
+                Column("geodesic_rad", "rad", "eq. 1, mean over joints"),
+                Column("euclidean_units", "euclidean_unit_m", "eq. 2, mean over joints"),
+                Column("duration_s", "s", "duration between manual tags"),
+                Column("surface_s", "s", "surface there, in sample; empty without a surface"),
+            ),
+        ),
+        Table(
             "overview",
             "results/naert2017/fig03.csv",
             "a rule of the workflow (the counterpart of Naert et al. 2017, Fig. 3)",
@@ -643,6 +777,17 @@ TABLES |= {
             ),
         ),
         Table(
+            "fitted_truths",
+            "results/endres2013/<corpus>/fitted_truths.csv",
+            "a boundary of a fitted trajectory, which binning is to find again",
+            (
+                *_LEAD,
+                _DATASET,
+                _TRUE_ORDER,
+                Column("boundary_s", "s", "from the start of the movement"),
+            ),
+        ),
+        Table(
             "order_posteriors",
             "results/endres2013/<corpus>/order_posteriors.csv",
             "the order posterior of a group of trajectories, at one order (Fig. 3B, 6, 7, A1)",
@@ -780,7 +925,7 @@ TABLES |= {
                 *_LEAD,
                 _HAND,
                 Column("boundary_s", "s", "its time"),
-                Column("probability", "", "posterior mass of the bins within its clearance"),
+                Column("probability", "", "posterior of a boundary at most 3 bins away"),
             ),
         ),
         Table(
@@ -811,12 +956,11 @@ TABLES |= {
                 _text("truth", "against what: minima, tags or refined tags"),
                 Column("window_s", "s", "half-width of the window"),
                 Column("hits", "", "pairs within the window, one to one"),
-                Column("hit_rate", "", "of the truth that was hit"),
-                Column("precision", "", "of what was found that hit"),
+                Column("hit_rate", "", "of the truth that was hit, mean over recordings"),
+                Column("false_positives_per_s", "1/s", "found and no hit, mean over recordings"),
                 Column("chance_hit_rate", "", "of as many Poisson events: mean of the draws"),
                 Column("chance_low", "", "2.5 % of the draws"),
                 Column("chance_high", "", "97.5 %"),
-                Column("p", "", "share of draws with as many hits or more"),
                 Column("n_found", "", "events found"),
                 Column("n_truth", "", "events they are held against"),
                 Column("recordings", "", "recordings"),

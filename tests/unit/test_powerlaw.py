@@ -117,7 +117,6 @@ def truth(sign):
 def test_each_segment_obeys_its_own_law_as_measured_from_the_samples(truth):
     """From positions and boundaries alone, nothing that the warping stored."""
     v, k = speed(truth.positions, 240.0), curvature(truth.positions)
-    k = np.maximum(k, truth.least_curvature)
     t = np.arange(len(v)) / 240.0
     edges = [0, *truth.boundaries_s, np.inf]
     for i in range(3):
@@ -214,20 +213,24 @@ def test_pixels_warp_like_metres(sign, truth):
     assert [law.beta for law in found.drawn] == [law.beta for law in truth.drawn]
 
 
-def test_flat_paths_have_inflections_and_still_work():
-    """Their curvature passes through 0: some are left out, others not."""
-    signs = [minimum_jerk_sign(np.random.default_rng(i))[:, :2] for i in range(10)]
-    found = [warp_to_power_law(sign, 240.0, i) for i, sign in enumerate(signs)]
-    accepted = [one for one in found if isinstance(one, GroundTruth)]
-    assert accepted
-    for one in accepted:
-        assert one.positions.shape[1] == 2
-        assert one.straight_share > 0
-        assert min(law.r_squared for law in one.fitted) > 0.97
+@pytest.mark.parametrize("inflections", [False, True])
+def test_flat_paths_work_too(inflections):
+    """At an inflection the curvature is 0, and the law has no speed: its floor has one."""
+    t = np.arange(480) / 240
+    spiral = (0.3 - 0.08 * t)[:, None] * np.column_stack([np.cos(5 * t), 0.5 * np.sin(5 * t)])
+    wave = np.column_stack([0.4 * t, 0.1 * np.sin(6 * t)])
+    found = warp_to_power_law(wave if inflections else spiral, 240.0, 1)
+    assert isinstance(found, GroundTruth)
+    assert found.positions.shape[1] == 2
+    assert (found.straight_share > 0) == inflections
+    assert min(law.r_squared for law in found.fitted) > 0.97
 
 
 def test_the_printed_first_gain_is_speed_and_curvature_of_the_first_sample(sign):
-    found = warp_to_power_law(sign, 240.0, 5, WarpSettings(first_gain="first_sample"))
+    loose = WarpSettings(
+        first_gain="first_sample", most_speed_ratio=9, most_duration_ratio=9, least_r_squared=0
+    )
+    found = warp_to_power_law(sign, 240.0, 5, loose)
     assert isinstance(found, GroundTruth)
     first = speed(sign, 240.0)[found.active.start]
     # v(0) = alpha_1 kappa(0)^beta_1: the warped motion starts at the recorded speed.
@@ -239,7 +242,8 @@ def test_a_pause_inside_is_passed():
     """A hand that stands still has a place on the path and no time of its own."""
     sign = minimum_jerk_sign(np.random.default_rng(2), noise_sd=0)
     stopped = np.concatenate([sign[:180], np.repeat(sign[180:181], 60, axis=0), sign[180:]])
-    found = warp_to_power_law(stopped, 240.0, 8, WarpSettings(most_duration_ratio=5.0))
+    loose = WarpSettings(most_speed_ratio=9, most_duration_ratio=9, least_r_squared=0)
+    found = warp_to_power_law(stopped, 240.0, 8, loose)
     assert isinstance(found, GroundTruth)
     moved = np.linalg.norm(np.diff(found.positions, axis=0), axis=1)
     assert moved.min() > 0

@@ -5,11 +5,8 @@ rule claims:
     """The ledger: a verdict for every claim and piece of evidence."""
     input:
         rules.naert2017.input,
-        *[
-            getattr(rules, name).input
-            for name in ("naert2017_durations", "endres2013", "sensitivity")
-            if rules.has(name)
-        ],
+        rules.naert2017_durations.input,
+        rules.endres2013.input,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         papers=PLAN.claim_files(),
     output:
@@ -58,11 +55,7 @@ rule curves:
     """What the claims rest on: a specification curve for each."""
     input:
         collect(rules.multiverse.output, corpus=PLAN.tagged),
-        *[
-            getattr(rules, name).input
-            for name in ("naert2017_durations", "endres2013", "sensitivity")
-            if rules.has(name)
-        ],
+        rules.endres2013.input,
         papers=PLAN.claim_files(),
     output:
         folder=directory("<results>/audit/curves"),

@@ -131,6 +131,32 @@ rule endres_figures:
         "../scripts/endres_figures.py"
 
 
+rule sensitivity:
+    """What the paper does not print, varied: prior and bins (3.2)."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        ground_truth=rules.endres_tables.output.ground_truth,
+    output:
+        table=STUDY + "/sensitivity.csv",
+        svg=STUDY + "/fig_sensitivity.svg",
+        pdf=STUDY + "/fig_sensitivity.pdf",
+        caption=STUDY + "/sensitivity.txt",
+    log:
+        "<logs>/endres2013/{corpus}/sensitivity.log",
+    threads: 2
+    params:
+        code=PLAN.digest("sensitivity.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": config["binning"],
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/sensitivity.py"
+
+
 rule binning_scheme:
     """The model as a drawing (Fig. 2)."""
     output:
@@ -150,4 +176,5 @@ rule endres2013:
     input:
         collect(rules.endres_tables.output, corpus=PLAN.single_signs),
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
+        collect(rules.sensitivity.output, corpus=PLAN.single_signs),
         rules.binning_scheme.output,

@@ -31,6 +31,7 @@ rule transitions:
     output:
         sign_types="<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
         transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
+        speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
     log:
         "<logs>/naert2017/{corpus}/{shard}/transitions.log",
     params:

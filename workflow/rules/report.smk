@@ -24,6 +24,7 @@ rule report:
     """The page you are reading."""
     input:
         rules.naert2017.input,
+        rules.naert2017_durations.input,
         rules.audit.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),

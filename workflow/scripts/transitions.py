@@ -12,7 +12,7 @@ with job(snakemake):
 
     corpus = load_corpus(Path(snakemake.params.corpus))
     frames = pd.read_parquet(snakemake.input.frames)
-    sign_types, rows = transitions(
+    sign_types, rows, speeds = transitions(
         corpus,
         read_recordings(snakemake.input.recordings),
         dict(iter(frames.groupby("recording", sort=False))),
@@ -22,3 +22,4 @@ with job(snakemake):
     )
     tables.write_table(sign_types, snakemake.output.sign_types, "sign_types", corpus.unit)
     tables.write_table(rows, snakemake.output.transitions, "raw_transitions", corpus.unit)
+    tables.write_table(speeds, snakemake.output.speeds, "transition_speeds", corpus.unit)

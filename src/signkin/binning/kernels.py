@@ -20,6 +20,7 @@ LANES = 8  # sums that are kept in registers together
 LEAST_WEIGHT = -345.0  # log of the smallest weight that is not taken for 0
 UNDERFLOW = 1e-120  # a sum in the linear domain below this may have lost terms
 NEGLIGIBLE = 1e-20  # weight, in units of the best path, that posteriors pass over
+MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 LEAST = 1e-13  # probability of a segment that expectations pass over
 
 
@@ -640,6 +641,101 @@ def posterior_of_order(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def log_ways_on(evidence: F, most: int, table: F) -> None:
+    """Fill table[k, p] with the log of the sum over ways to cut bins p.. into k segments.
+
+    In the log domain, for k = 0..most. evidence: (T, W). table: (most + 1, T + 1).
+    """
+    bins, longest = evidence.shape
+    values = np.empty(longest)
+    rounded = np.empty(longest)
+    scale = np.empty(longest)
+    rounded_bits = rounded.view(np.int64)
+    scale_bits = scale.view(np.int64)
+    table[:] = -np.inf
+    table[0, bins] = 0.0
+    for k in range(1, most + 1):
+        for p in range(bins - k, -1, -1):
+            row, ahead = evidence[p], table[k - 1, p + 1 :]
+            length = min(longest, bins - p)
+            top = -np.inf
+            for n in range(length):
+                values[n] = row[n] + ahead[n]
+                top = max(top, values[n])
+            if top == -np.inf:
+                continue
+            for n in range(length):
+                values[n] -= top
+            exp_in_place(values, rounded, rounded_bits, scale, scale_bits, length)
+            sum_ = 0.0
+            for n in range(length):
+                sum_ += values[n]
+            table[k, p] = top + math.log(sum_)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def log_posterior(evidence: F, mass: F, boundary: F, segments: F) -> None:
+    """Add to boundary and segments what the counts with some `mass` say, in the log domain.
+
+    For counts whose sums the linear domain loses beside those of others: a posterior with two
+    peaks far apart. evidence: (T, W). mass: (C,) of P(M | D). From each bin on, a segment's
+    probability given the number of segments to go is the ratio of two sums.
+    """
+    bins, longest = evidence.shape
+    most = 0
+    for m in range(len(mass)):
+        if mass[m] > 0.0:
+            most = m + 1
+    table = np.empty((most + 1, bins + 1))
+    log_ways_on(evidence, most, table)
+    here = np.zeros((bins + 1, most + 1))
+    here[0, 1:] = mass[:most]
+    values = np.empty(longest)
+    rounded = np.empty(longest)
+    scale = np.empty(longest)
+    rounded_bits = rounded.view(np.int64)
+    scale_bits = scale.view(np.int64)
+    for p in range(bins):
+        row, target = evidence[p], segments[p]
+        length = min(longest, bins - p)
+        if p > 0:
+            boundary[p - 1] += np.sum(here[p])
+        for k in range(1, most + 1):
+            share = here[p, k]
+            if share <= NEGLIGIBLE or table[k, p] == -np.inf:
+                continue
+            ahead = table[k - 1, p + 1 :]
+            for n in range(length):
+                values[n] = row[n] + ahead[n] - table[k, p]
+            exp_in_place(values, rounded, rounded_bits, scale, scale_bits, length)
+            for n in range(length):
+                part = share * values[n]
+                target[n] += part
+                here[p + 1 + n, k - 1] += part
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def uncovered(log_by_count: F, offset: I, ways: F, mass: F) -> float:
+    """Fill mass with P(M | D) where a pass has lost it, 0 elsewhere; returns its sum."""
+    columns = ways.shape[1]
+    top = -np.inf
+    for m in range(len(log_by_count)):
+        top = max(top, log_by_count[m])
+    total = 0.0
+    lost = 0.0
+    for m in range(len(log_by_count)):
+        share = math.exp(log_by_count[m] - top)
+        total += share
+        c = LANES + m + 1 - offset[0]
+        there = LANES <= c < columns - LANES and ways[0, c] >= UNDERFLOW
+        mass[m] = 0.0 if there else share
+        lost += mass[m]
+    for m in range(len(log_by_count)):
+        mass[m] /= total
+    return lost / total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def fit_orders(
     evidence: F, wanted: I, log_prior: F, log_by_count: F, probability: F, boundary: F,
     log_evidence: F, lost: F,
@@ -655,12 +751,20 @@ def fit_orders(
     offset = np.zeros(bins + 1, dtype=np.int64)
     ways = np.empty((bins + 1, columns_for(counts)))
     before = np.empty(ways.shape)
+    mass = np.empty(counts)
     for i in range(len(wanted)):
         of_order = evidence[wanted[i]]
         counts_of_order(of_order, log_prior, log_by_count[i], weight, best, offset, ways)
+        # The posterior overwrites the evidence, which is wanted again where a pass loses counts.
+        again = uncovered(log_by_count[i], offset, ways, mass) > MOST_LOST
+        kept = of_order.copy() if again else of_order
         log_evidence[i], lost[i] = posterior_of_order(
             log_by_count[i], weight, offset, ways, before, probability[i], boundary[i], of_order
         )
+        if again:
+            log_posterior(kept, mass, boundary[i], of_order)
+            lost[i] = 0.0
+            boundary[i, bins - 1] = 1.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -122,18 +122,13 @@ def _tables(
     log_scale = float(np.sum(np.log(inverse_scale)))
     # ln p = -nL/2 ln pi + L/2 (ln|B| - ln|A|) - n/2 ln|V^-1| + ln G((dof + n)/2) - ln G(dof/2)
     #        - (dof + n)/2 ln|I + R|
-    gamma = multigammaln_each((dof + n) / 2, dimensions) - multigammaln(dof / 2, dimensions)
+    gamma = multigammaln((dof + n) / 2, dimensions) - multigammaln(dof / 2, dimensions)
     rest = gamma - 0.5 * n * (dimensions * np.log(np.pi) + log_scale)
     constant = rest[:, None] + dimensions * geometry.log_ratio
     return Tables(
         geometry.cosine, geometry.sine, geometry.inverse, geometry.powers,
         np.ascontiguousarray(constant), (dof + n) / 2,
     )  # fmt: skip
-
-
-def multigammaln_each(a: NDArray[np.float64], dimensions: int) -> NDArray[np.float64]:
-    """Return the log of the multivariate gamma function for each element of an array."""
-    return np.array([multigammaln(value, dimensions) for value in a])
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,16 +1,219 @@
-"""Models of transition duration (Naert et al. 2017, section 5.2)."""
+"""Models of transition duration (Naert et al. 2017, section 5.2).
+
+All share one interface: `fit(geodesic, euclidean, duration_s)`, then
+`predict(geodesic, euclidean)`. SIMPLE and SIMPLE_BOUNDED want the mean speeds of the two signs
+around each transition besides, as `linear_speed` and `angular_speed`. Distances may be in any
+unit, as long as it is the same in fit, predict and speeds (the pipeline: radians, and Euclidean
+over `euclidean_unit_m`).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 
 from signkin.errors import SignkinError
 
 TERMS = ("constant", "geodesic", "euclidean")
+LINEAR_TERMS = ("constant", "mean_distance")
+
+Array = NDArray[np.float64]
+
+
+class DurationModel(Protocol):
+    """What every model of duration can do; arrays are (N,), speeds (N, 2)."""
+
+    def fit(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        duration_s: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> DurationModel:
+        """Learn from transitions and return the model itself."""
+
+    def predict(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
+        """Return durations in seconds, (N,)."""
+
+
+@dataclass
+class SimpleDuration:
+    """SIMPLE_DURATION (eq. 3): distance over the mean speed of the two surrounding signs.
+
+    duration = alpha 2 E / (v1 + v2) + (1 - alpha) 2 G / (w1 + w2). Nothing is learnt: `fit`
+    returns the model as it is. alpha, 0 to 1: weight of the Euclidean part, which the paper does
+    not print. A part with weight 0 needs neither its distance nor its speeds.
+    """
+
+    alpha: float = 0.5
+
+    def __post_init__(self) -> None:
+        """Refuse a weight outside 0 to 1."""
+        if not 0 <= self.alpha <= 1:
+            raise SignkinError(f"alpha is {self.alpha:g}", place="SIMPLE", expected="0 to 1")
+
+    def fit(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        duration_s: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> SimpleDuration:
+        """Return the model itself: eq. 3 has nothing to learn."""
+        return self
+
+    def predict(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
+        """Return durations in seconds, (N,).
+
+        linear_speed, angular_speed: (N, 2), mean over the joints and frames of the sign before
+        and of the sign after; distance units a second, and rad/s measured as eq. 1 measures
+        angles. One transition may come as scalars with speeds (2,).
+        """
+        total: Array | float = 0.0
+        for weight, distance, speed, name in (
+            (self.alpha, euclidean, linear_speed, "linear_speed"),
+            (1 - self.alpha, geodesic, angular_speed, "angular_speed"),
+        ):
+            if weight:
+                total = total + weight * _travel_time(distance, speed, name)
+        return np.asarray(total, dtype=float)
+
+
+@dataclass
+class SimpleBoundedDuration(SimpleDuration):
+    """SIMPLE_BOUNDED_DURATION: eq. 3, put to `low_s` below it and to `high_s` above it."""
+
+    low_s: float = 0.1
+    high_s: float = 0.5
+
+    def __post_init__(self) -> None:
+        """Refuse bounds that hold nothing."""
+        super().__post_init__()
+        if not 0 <= self.low_s < self.high_s:
+            raise SignkinError(
+                f"the bounds are {self.low_s:g} and {self.high_s:g} s",
+                place="SIMPLE_BOUNDED",
+                expected="0 <= low_s < high_s",
+            )
+
+    def predict(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
+        """Return durations in seconds, (N,), as `SimpleDuration.predict`, within the bounds."""
+        free = super().predict(
+            geodesic, euclidean, linear_speed=linear_speed, angular_speed=angular_speed
+        )
+        return np.asarray(np.clip(free, self.low_s, self.high_s))
+
+
+@dataclass
+class LinearDuration:
+    """LINEAR_DURATION: the straight line of Fig. 7 over the mean of the normalised distances.
+
+    Each distance has its mean taken off and is divided by its range (5.1), both learnt in
+    `fit`. Where a corpus has no geodesic distance at all (all NaN), the mean is the Euclidean
+    one, as in transitions.csv. theta: intercept (s) and slope (s a unit of mean distance).
+    """
+
+    theta: Array = field(default_factory=lambda: np.full(2, np.nan))
+    standard_error: Array = field(default_factory=lambda: np.full(2, np.nan))
+    centre: Array = field(default_factory=lambda: np.full(2, np.nan))
+    span: Array = field(default_factory=lambda: np.full(2, np.nan))
+    n: int = 0
+    mean_error_s: float = float("nan")
+
+    def fit(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        duration_s: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> LinearDuration:
+        """Fit to transitions; fewer than three, or distances that do not vary, are an error."""
+        y = np.asarray(duration_s, dtype=float)
+        pair = [np.asarray(d, dtype=float) for d in (geodesic, euclidean)]
+        if np.isnan(pair[0]).all():
+            pair = [np.full(len(y), np.nan), pair[1]]
+        used = [d for d in pair if not np.isnan(d).all()]
+        if not used or not (np.isfinite(y).all() and all(np.isfinite(d).all() for d in used)):
+            raise _missing("LINEAR")
+        if len(y) < 3 or all(np.ptp(d) == 0 for d in used):
+            raise SignkinError(
+                f"no line through {len(y)} transitions",
+                place="LINEAR",
+                expected="three transitions or more whose distances differ",
+            )
+        there = [not np.isnan(d).all() for d in pair]
+        self.centre = np.array(
+            [d.mean() if t else np.nan for d, t in zip(pair, there, strict=True)]
+        )
+        self.span = np.array(
+            [(np.ptp(d) or 1.0) if t else np.nan for d, t in zip(pair, there, strict=True)]
+        )
+        x = self.mean_distance(*pair)
+        if np.ptp(x) <= 1e-12:
+            raise SignkinError(
+                "the mean of the normalised distances does not vary",
+                place="LINEAR",
+                expected="distances that do not cancel each other",
+            )
+        line = stats.linregress(x, y)
+        self.theta = np.array([line.intercept, line.slope])
+        self.standard_error = np.array([line.intercept_stderr, line.stderr])
+        self.n = len(y)
+        self.mean_error_s = float(np.mean(np.abs(y - self.predict(*pair))))
+        return self
+
+    def mean_distance(self, geodesic: ArrayLike, euclidean: ArrayLike) -> Array:
+        """Return the mean of the two distances, normalised as learnt; of the one, if so learnt."""
+        parts = [
+            (np.asarray(d, dtype=float) - c) / s
+            for d, c, s in zip((geodesic, euclidean), self.centre, self.span, strict=True)
+            if not np.isnan(c)
+        ]
+        return np.asarray(sum(parts) / len(parts), dtype=float)
+
+    def predict(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
+        """Return durations in seconds, (N,)."""
+        _refuse_unfitted(self.theta, "LINEAR")
+        return np.asarray(self.theta[0] + self.theta[1] * self.mean_distance(geodesic, euclidean))
 
 
 @dataclass
@@ -19,29 +222,29 @@ class SurfaceDuration:
 
     The least-squares solution of the paper's normal equations, by a QR decomposition, which
     gives the same theta without squaring the condition number. Distances in the units that
-    theta is wanted in (the pipeline: radians, and Euclidean over `euclidean_unit_m`).
+    theta is wanted in (the pipeline: radians, and Euclidean over `euclidean_unit_m`). The
+    printed surface: `SurfaceDuration(theta=np.array([0.148777, 0.663958, 0.275229]))`.
     """
 
-    theta: NDArray[np.float64] = field(default_factory=lambda: np.full(3, np.nan))
-    standard_error: NDArray[np.float64] = field(default_factory=lambda: np.full(3, np.nan))
+    theta: Array = field(default_factory=lambda: np.full(3, np.nan))
+    standard_error: Array = field(default_factory=lambda: np.full(3, np.nan))
     n: int = 0
     mean_error_s: float = float("nan")
 
     def fit(
         self,
-        geodesic: NDArray[np.float64],
-        euclidean: NDArray[np.float64],
-        duration_s: NDArray[np.float64],
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        duration_s: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
     ) -> SurfaceDuration:
         """Fit to transitions: arrays (N,). Singular or too few equations are an error."""
-        x = np.column_stack([np.ones(len(duration_s)), geodesic, euclidean])
         y = np.asarray(duration_s, dtype=float)
+        x = np.column_stack([np.ones(len(y)), geodesic, euclidean]).astype(float)
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
-            raise SignkinError(
-                "a distance or duration is missing",
-                place="surface",
-                expected="transitions with both distances and a duration",
-            )
+            raise _missing("surface")
         if len(y) < 4 or np.linalg.matrix_rank(_scaled(x)) < 3:
             raise SignkinError(
                 f"the normal equations of {len(y)} transitions are singular",
@@ -58,20 +261,163 @@ class SurfaceDuration:
         self.standard_error = np.sqrt(variance * (inverse**2).sum(axis=1))
         return self
 
-    def interval(self, level: float = 0.95) -> NDArray[np.float64]:
+    def interval(self, level: float = 0.95) -> Array:
         """Return the confidence interval of each coefficient, (3, 2), by Student's t."""
         half = stats.t.ppf(0.5 + level / 2, self.n - 3) * self.standard_error
         return np.column_stack([self.theta - half, self.theta + half])
 
     def predict(
-        self, geodesic: NDArray[np.float64], euclidean: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
         """Return predicted durations in seconds, (N,)."""
-        return np.asarray(
-            self.theta[0] + self.theta[1] * geodesic + self.theta[2] * euclidean, dtype=float
+        _refuse_unfitted(self.theta, "surface")
+        g, e = np.asarray(geodesic, dtype=float), np.asarray(euclidean, dtype=float)
+        return np.asarray(self.theta[0] + self.theta[1] * g + self.theta[2] * e)
+
+
+@dataclass
+class MeanDuration:
+    """The baseline that any model has to beat: the mean duration, whatever the distance."""
+
+    mean_s: float = float("nan")
+
+    def fit(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        duration_s: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> MeanDuration:
+        """Take the mean of the durations."""
+        y = np.asarray(duration_s, dtype=float)
+        if not len(y) or not np.isfinite(y).all():
+            raise _missing("MEAN")
+        self.mean_s = float(y.mean())
+        return self
+
+    def predict(
+        self,
+        geodesic: ArrayLike,
+        euclidean: ArrayLike,
+        *,
+        linear_speed: ArrayLike | None = None,
+        angular_speed: ArrayLike | None = None,
+    ) -> Array:
+        """Return the mean, once for each transition, (N,)."""
+        _refuse_unfitted(np.array([self.mean_s]), "MEAN")
+        return np.full(np.shape(np.asarray(euclidean)), self.mean_s)
+
+
+@dataclass(frozen=True, eq=False)
+class Transitions:
+    """What models learn from and predict for: arrays (N,), speeds (N, 2); NaN is missing."""
+
+    geodesic: Array
+    euclidean: Array
+    duration_s: Array
+    linear_speed: Array
+    angular_speed: Array
+
+    def __len__(self) -> int:
+        """Return the number of transitions."""
+        return len(self.duration_s)
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Transitions:
+        """Return some of the transitions."""
+        return Transitions(
+            self.geodesic[chosen],
+            self.euclidean[chosen],
+            self.duration_s[chosen],
+            self.linear_speed[chosen],
+            self.angular_speed[chosen],
+        )
+
+    def teach(self, model: DurationModel) -> DurationModel:
+        """Fit a model to these transitions and return it."""
+        return model.fit(
+            self.geodesic,
+            self.euclidean,
+            self.duration_s,
+            linear_speed=self.linear_speed,
+            angular_speed=self.angular_speed,
+        )
+
+    def ask(self, model: DurationModel) -> Array:
+        """Return what a model predicts for these transitions, in s, (N,)."""
+        return model.predict(
+            self.geodesic,
+            self.euclidean,
+            linear_speed=self.linear_speed,
+            angular_speed=self.angular_speed,
         )
 
 
-def _scaled(x: NDArray[np.float64]) -> NDArray[np.float64]:
+def predict_left_out(
+    make: Callable[[], DurationModel], data: Transitions, groups: Sequence[Hashable]
+) -> Array:
+    """Return predictions for each group by a model that learnt from all other groups, (N,).
+
+    groups: one label a transition; all labels different is leave-one-out, a recording's name
+    is leave-one-recording-out. Raises SignkinError for fewer than two groups.
+    """
+    labels = list(dict.fromkeys(groups))
+    if len(labels) < 2:
+        raise SignkinError(
+            f"{len(labels)} group to leave out", place="cross-validation", expected="two or more"
+        )
+    place = {label: i for i, label in enumerate(labels)}
+    member = np.array([place[label] for label in groups])
+    out = np.full(len(data), np.nan)
+    for i in range(len(labels)):
+        held = member == i
+        out[held] = data[held].ask(data[~held].teach(make()))
+    return out
+
+
+def _travel_time(distance: ArrayLike, speed: ArrayLike | None, name: str) -> Array:
+    if speed is None:
+        raise SignkinError(
+            f"no {name}",
+            place="SIMPLE",
+            expected="the mean speeds of the signs before and after, (N, 2)",
+        )
+    speeds = np.asarray(speed, dtype=float)
+    if speeds.shape != (*np.shape(np.asarray(distance)), 2):
+        raise SignkinError(
+            f"{name} has shape {speeds.shape}",
+            place="SIMPLE",
+            expected=f"{(*np.shape(np.asarray(distance)), 2)}: the sign before, the sign after",
+        )
+    total = speeds.sum(axis=-1)
+    if (total <= 0).any():
+        raise SignkinError(
+            f"{name} is 0 or less for {int((total <= 0).sum())} transitions",
+            place="SIMPLE",
+            expected="signs that move: eq. 3 divides by their speed",
+        )
+    return np.asarray(2 * np.asarray(distance, dtype=float) / total)
+
+
+def _missing(place: str) -> SignkinError:
+    return SignkinError(
+        "a distance or duration is missing",
+        place=place,
+        expected="transitions with both distances and a duration",
+    )
+
+
+def _refuse_unfitted(theta: Array, place: str) -> None:
+    if np.isnan(theta).any():
+        raise SignkinError("the model is not fitted", place=place, todo="Call fit() first.")
+
+
+def _scaled(x: Array) -> Array:
     size = np.linalg.norm(x, axis=0)
     return x / np.where(size > 0, size, 1.0)

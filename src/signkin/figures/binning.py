@@ -75,7 +75,10 @@ def plot_orders(
     ax.set(xlabel="polynomial order S", ylabel="P(S | data)", ylim=(0, 1.03))
     ax.set_xticks(sorted(points["x"].unique()))
     if legend and len(names) > 1:
-        ax.legend(loc="best")
+        # The highest bar may stand anywhere: room for the legend above all of them.
+        ax.set_ylim(0, 1.08 + 0.11 * -(-len(names) // 2))
+        ax.set_yticks(np.linspace(0, 1, 6))
+        ax.legend(loc="upper center", ncols=2)
     return ax
 
 
@@ -115,7 +118,7 @@ def plot_hit_rates(
     ax.set(xlim=(-0.03 * right, right), ylim=(-0.03, 1.06))
     ax.set(xlabel="false positives a second", ylabel="hit rate")
     if legend:
-        ax.legend(loc="lower right")
+        ax.legend(loc="upper center", bbox_to_anchor=(0.45, -0.2), ncols=2, columnspacing=1.0)
     return ax
 
 
@@ -149,7 +152,8 @@ def plot_explained(points: pd.DataFrame, *, ax: Axes) -> Axes:
         )  # fmt: skip
     low = float((points["y"] - points["y_error"].fillna(0.0)).min())
     ax.set(xlabel="polynomial order S", ylabel="explained variance")
-    ax.set_ylim(min(0.9, low - 0.03), 1.01)
+    ax.set_ylim(min(0.9, low - 0.06), 1.02)
+    ax.set_xlim(points["x"].min() - 0.7, points["x"].max() + 0.7)
     ax.set_xticks(sorted(points["x"].unique()))
     return ax
 

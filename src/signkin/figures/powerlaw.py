@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from signkin.figures.style import ACCENT, MANUAL, RIGHT
 
@@ -65,8 +66,14 @@ def plot_law(
             order = part.sort_values(f"curvature_per_{unit}")
             law = order[f"predicted_speed_{unit}_per_s"]
             ax.plot(order[f"curvature_per_{unit}"], law, color="0.15", lw=0.9)
-        ax.legend(loc="best", handletextpad=0.2, borderpad=0.2)
+        ax.legend(loc="upper center", bbox_to_anchor=(0.45, -0.2), handletextpad=0.2)
     ax.set(xscale="log", yscale="log")
+    for axis in (ax.xaxis, ax.yaxis):
+        low, high = axis.get_view_interval()
+        subs = (1.0,) if high > 30 * low else (1.0, 2.0, 3.0, 5.0)
+        axis.set_major_locator(LogLocator(subs=subs))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
     ax.set(xlabel=f"curvature (1/{unit})", ylabel=f"speed ({unit}/s)")
     return ax
 

@@ -135,7 +135,8 @@ def _speed_finding(recording: Recording, hand: str, ruler: float | None) -> Find
         likely = rate * TYPICAL_WRIST_SPEED / fastest
         note = (
             f"at {rate:g} Hz no hand moves so fast; ordinary signing "
-            f"({TYPICAL_WRIST_SPEED:g} m/s) would mean about {likely:.0f} Hz, or another unit"
+            f"({TYPICAL_WRIST_SPEED:g} m/s) would mean about {likely:.0f} Hz or another unit, "
+            "or in single recordings, jumps of the tracker"
         )
     elif fastest < limit.low:
         note = "this hand hardly moves: a hand that rests, or a wrong rate or unit"

@@ -19,6 +19,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from signkin import tables
 from signkin.binning import Posterior, Prior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus
@@ -221,15 +222,25 @@ def explained_variance(x: Floats, fitted: Floats) -> float:
     return 1 - float(np.sum((x - fitted) ** 2)) / total
 
 
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a shard gave: fits of recorded and power-law trajectories, and rows of tables."""
+
+    fits: list[Fitted]
+    rows: Mapping[str, list[dict[str, Any]]]
+
+    def table(self, name: str) -> pd.DataFrame:
+        """Return one of the tables binning, fitted_truths, binning_left_out."""
+        return pd.DataFrame(self.rows[name], columns=tables.TABLES[name].names())
+
+
 def study(
-    corpus: Corpus, trajectories: Sequence[Trajectory], names: Sequence[str],
-    settings: Mapping[str, Any], workers: int,
-) -> tuple[pd.DataFrame, list[Fitted], list[dict[str, Any]]]:  # fmt: skip
+    corpus: Corpus, trajectories: Sequence[Trajectory], settings: Mapping[str, Any], workers: int
+) -> Found:
     """Bin a shard's trajectories, and the trajectories fitted to some of the recorded ones.
 
-    names: all recordings of the corpus; of these at most `fitted_recordings` are fitted and
-    binned again. Returns the rows of binning.csv, the fits of recorded and power-law
-    trajectories, and what was left out.
+    settings: the section `binning` of config.yaml. Of all recordings of the corpus at most
+    `fitted_recordings` are fitted and binned again.
     """
     runs = Study(corpus, settings, workers)
     none = np.empty(0)
@@ -238,7 +249,7 @@ def study(
         for t in trajectories
     ]
     fits = runs.run(given)
-    picked = set(chosen(names, settings["fitted_recordings"]))
+    picked = set(chosen([e.recording for e in corpus.entries], settings["fitted_recordings"]))
     again = [
         item
         for one in fits
@@ -247,7 +258,19 @@ def study(
         for item in runs.fitted_data(one, order)
     ]
     rows = [row for one in (*fits, *runs.run(again)) for row in rows_of(corpus, settings, one)]
-    return pd.DataFrame(rows), fits, runs.left_out
+    truths = [
+        {
+            **lead(corpus, item.source.recording),
+            "dataset": item.dataset,
+            "true_order": item.true_order,
+            "boundary_s": time,
+        }
+        for item in again
+        for time in item.truth_s
+    ]
+    return Found(
+        fits, {"binning": rows, "fitted_truths": truths, "binning_left_out": runs.left_out}
+    )
 
 
 # --- per-trajectory results ------------------------------------------------------------------

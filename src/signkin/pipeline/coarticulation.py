@@ -16,6 +16,7 @@ from signkin.coarticulation.segmentation import (
     chance_distances,
     refinement_quality,
 )
+from signkin.coarticulation.sign_speeds import continuous, sign_speeds, transition_speed_rows
 from signkin.coarticulation.sign_types import TypeRule, Wrists, reach_of, sign_type_rows
 from signkin.coarticulation.transitions import transition_rows, utterance_names
 from signkin.corpus import Corpus
@@ -77,14 +78,14 @@ def transitions(
     intervals: pd.DataFrame,
     refined: pd.DataFrame,
     settings: Mapping[str, Any],
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return sign types and transitions of some recordings (not yet normalised).
+) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
+    """Return sign types, transitions (not yet normalised) and the speeds around them.
 
     wrist_frames: recording -> its frames of kinematics. refined: the table `boundaries`.
     settings: config.yaml (kinematics, transitions, sign_types).
     """
     rule = TypeRule(**settings["sign_types"])
-    types, moves = [], []
+    types, moves, speeds = [], [], []
     for recording in recordings:
         if recording.name not in wrist_frames:
             continue
@@ -101,10 +102,30 @@ def transitions(
         kinds.insert(4, "utterance", utterances)
         types.append(_with_lead(corpus, recording.name, kinds))
         moves.append(_with_lead(corpus, recording.name, rows))
+        around = _speeds(filled, orientations, signs, utterances, settings["kinematics"]["lowpass"])
+        speeds.append(_with_lead(corpus, recording.name, around))
     return (
         _together(types, "sign_types", corpus.unit),
         _together(moves, "raw_transitions", corpus.unit),
+        _together(speeds, "transition_speeds", corpus.unit),
     )
+
+
+def _speeds(
+    recording: Recording,
+    orientations: np.ndarray | None,
+    signs: list[Interval],
+    utterances: list[str],
+    filter_: Mapping[str, Any],
+) -> pd.DataFrame:
+    """Return the mean speeds of the signs around each transition, motion low-passed."""
+    positions = lowpass(recording.positions, recording.rate_hz, **filter_)
+    smooth = None
+    if orientations is not None:
+        smooth = lowpass(continuous(orientations), recording.rate_hz, **filter_)
+        smooth /= np.linalg.norm(smooth, axis=2, keepdims=True)
+    speeds = sign_speeds(positions, smooth, signs, recording)
+    return transition_speed_rows(speeds, utterances, recording.unit)
 
 
 def utterances_of(

@@ -6,7 +6,22 @@ import pandas as pd
 
 from signkin.corpus import Corpus
 
-SIGN_COLUMNS = {"sign": ("sign", ""), "repetition": ("repetition", "d")}
+MOST_ROWS = 300  # of a table of recordings in the page; the file has all
+
+
+def sign_columns(corpus: Corpus) -> dict[str, tuple[str, str]]:
+    """Return the columns of a table of recordings that tell its signs."""
+    if corpus.single_signs:
+        return {"sign": ("sign", ""), "repetition": ("repetition", "d")}
+    return {"signs": ("signs", "d")}
+
+
+def first_rows(frame: pd.DataFrame) -> tuple[pd.DataFrame, str]:
+    """Return the rows that the page has, and what its caption says of the others."""
+    if len(frame) <= MOST_ROWS:
+        return frame, ""
+    told = f" The page has the first {MOST_ROWS} rows, the file all {len(frame)}."
+    return frame.head(MOST_ROWS), told
 
 
 def titled(what: str, corpus: Corpus) -> str:

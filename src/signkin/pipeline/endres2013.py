@@ -75,21 +75,22 @@ def rates_by_order(part: pd.DataFrame) -> dict[int, list[HitRate]]:
     }
 
 
-class Truth:
-    """The known boundaries of a corpus's trajectories, by recording, for one kind of data."""
+Truths = Mapping[tuple[str, int | None, str], Sequence[float]]
 
-    def __init__(self, trajectories: Sequence[Trajectory]) -> None:
-        """Take those of the power-law ground truth; fitted ones have theirs in the rows."""
-        self._powerlaw = {
-            t.recording: (t.boundaries_s, t.duration_s)
-            for t in trajectories
-            if t.dataset == POWERLAW
-        }
 
-    def of(self, part: pd.DataFrame) -> tuple[list[Any], list[float]]:
-        """Return boundaries and duration of each trajectory of a group of power-law data."""
-        found = [self._powerlaw[name] for name in sorted(part["recording"].unique())]
-        return [boundaries for boundaries, _ in found], [duration for _, duration in found]
+def known_boundaries(trajectories: Sequence[Trajectory], fitted: pd.DataFrame) -> Truths:
+    """Return (dataset, true order, recording) -> known boundaries in s; absent: none.
+
+    fitted: the table `fitted_truths`.
+    """
+    out: dict[tuple[str, int | None, str], Sequence[float]] = {
+        (POWERLAW, None, t.recording): [float(time) for time in t.boundaries_s]
+        for t in trajectories
+        if t.dataset == POWERLAW
+    }
+    for (dataset, order, recording), rows in fitted.groupby(["dataset", "true_order", "recording"]):
+        out[str(dataset), int(order), str(recording)] = rows["boundary_s"].tolist()
+    return out
 
 
 def chance_of(
@@ -102,7 +103,7 @@ def chance_of(
 
 
 def hit_rates(
-    corpus: str, binning: pd.DataFrame, truths: Mapping[tuple[str, Any, str], Any],
+    corpus: str, binning: pd.DataFrame, truths: Truths,
     settings: Mapping[str, Any], seed: int,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:  # fmt: skip
     """Return the tables `hit_rates` and `chance_lines`.
@@ -114,7 +115,7 @@ def hit_rates(
         name = tuple(str(value) for value in key.values())
         rates = rates_by_order(part)
         recordings = sorted(part["recording"].unique())
-        known = [truths[key["dataset"], _whole(key["true_order"]), r] for r in recordings]
+        known = [truths.get((key["dataset"], _whole(key["true_order"]), r), []) for r in recordings]
         durations = [r.duration_s for r in next(iter(rates.values()))]
         line = None
         if any(len(times) for times in known):

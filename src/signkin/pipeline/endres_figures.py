@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -11,13 +12,21 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from signkin import tables
+from signkin.corpus import Corpus
+from signkin.errors import SignkinError
 from signkin.figures import binning as drawing
 from signkin.figures import powerlaw as law_drawing
 from signkin.figures.style import WIDTH_IN
-from signkin.pipeline.binning import FITTED, FITTED_MAP
+from signkin.io.store import read_recordings
+from signkin.pipeline.binning import FITTED, FITTED_MAP, read_posteriors
 from signkin.pipeline.endres2013 import ALL
 from signkin.pipeline.naert2017 import Drawn
-from signkin.pipeline.single_signs import POWERLAW, RECORDED
+from signkin.pipeline.single_signs import (
+    POWERLAW,
+    RECORDED,
+    example_points,
+    read_trajectories,
+)
 
 FIGURES = ("fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1")
 EXAMPLE_ORDERS = (0, 3, 6)
@@ -166,7 +175,7 @@ def fig03(
         for row in recorded.itertuples()
     ]  # fmt: skip
     frame = _frame(corpus, rows)
-    figure, axes = plt.subplots(2, 2, figsize=(WIDTH_IN, 5.4))
+    figure, axes = plt.subplots(2, 2, figsize=(WIDTH_IN, 5.8))
     colours = {f"{axis}, order {FITTED_ORDER}": drawing.FIT_COLOURS[0] for axis in "xyz"}
     drawing.plot_curves(
         _panel(frame, "A"), ax=axes[0, 0], colours=colours, ylabel=f"position, centred ({unit})"
@@ -424,3 +433,47 @@ def fig_a1(corpus: str, orders: pd.DataFrame, rates: pd.DataFrame, lines: pd.Dat
         "segmentation's (marks of the averaged ones may lie outside; figA1.csv has all)."
     )
     return Drawn(figure, frame, caption)
+
+
+# --- all of them -----------------------------------------------------------------------------
+
+
+def draw(
+    corpus: Corpus,
+    frames: Mapping[str, pd.DataFrame],
+    recordings: Sequence[str],
+    trajectories: Sequence[str],
+    posteriors: Sequence[str],
+    settings: Mapping[str, Any],
+    seed: int,
+) -> dict[str, Drawn]:
+    """Draw Fig. 1, 3 to 7 and A1 of a corpus of single signs.
+
+    frames: its tables. recordings, trajectories, posteriors: the files of its shards. The
+    example of Fig. 1, 3A and 4 is the first recording that has a ground truth.
+    """
+    truth = frames["ground_truth"]
+    if truth.empty:
+        raise SignkinError(
+            "no recording has a power-law ground truth",
+            file=corpus.folder,
+            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+        )
+    example = str(truth["recording"].iloc[0])
+    (recording,) = (r for path in recordings for r in read_recordings(Path(path), [example]))
+    points = example_points(corpus, recording, settings, seed)
+    fits = read_posteriors(posteriors, example)
+    binned = {t.dataset: t.x for t in read_trajectories(trajectories) if t.recording == example}
+    name, unit = corpus.name, corpus.unit
+    orders, rates, lines = (
+        frames[kind] for kind in ("order_posteriors", "hit_rates", "chance_lines")
+    )
+    return {
+        "fig01": fig01(points, truth[truth["recording"] == example], unit),
+        "fig03": fig03(name, fits, binned[RECORDED], orders, rates, lines, unit),
+        "fig04": fig04(name, fits, binned[POWERLAW], unit),
+        "fig05": fig05(name, rates, lines),
+        "fig06": fig06(name, orders, rates, frames["order_tests"]),
+        "fig07": fig07(name, orders),
+        "figA1": fig_a1(name, orders, rates, lines),
+    }

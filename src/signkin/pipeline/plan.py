@@ -46,14 +46,15 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if not corpus.tagged]
 
     @property
-    def single_signs(self) -> list[str]:
-        """Corpora of single signs, which Endres et al.'s analyses run on."""
-        return [name for name, corpus in self.corpora.items() if corpus.single_signs]
-
-    @property
     def continuous(self) -> list[str]:
         """The other corpora, whose wrists are binned as long series."""
         return [name for name, corpus in self.corpora.items() if not corpus.single_signs]
+
+    @property
+    def oriented(self) -> list[str]:
+        """Tagged corpora with orientations, recorded or made, which a duration surface needs."""
+        motion = {name: self.corpora[name].settings["motion"] for name in self.tagged}
+        return [name for name, m in motion.items() if m.get("orientations", "none") != "none"]
 
     @property
     def with_elan(self) -> list[str]:

@@ -15,7 +15,8 @@ import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.pipeline.audit_report import audit_section
-from signkin.pipeline.corpora_report import SIGN_COLUMNS, design, origin, titled
+from signkin.pipeline.corpora_report import design, first_rows, origin, sign_columns, titled
+from signkin.pipeline.durations_report import duration_views
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -201,6 +202,11 @@ def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> S
             )
         if identity == "fig06":
             views += _refinement(sources, name)
+        if identity == "fig11":
+            views += duration_views(
+                sources.naert(name, ""), sources.config, sources.constants, exhibit,
+                corpus.simulator is not None,
+            )  # fmt: skip
     views += _left_out(sources, name)
     views.append(_sign_types(sources, name))
     if corpus.simulator:
@@ -461,22 +467,22 @@ def _data_section(sources: Sources) -> Section:
 
 
 def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
+    shown, told = first_rows(frame)
     return TableView(
         label="",
         title=titled("Recordings", sources.corpora[name]),
-        caption=_about(sources, name, frame),
-        frame=frame,
+        caption=_about(sources, name, frame) + told,
+        frame=shown,
         columns={
             "recording": ("recording", ""),
             "signer": ("signer", ""),
-            **(SIGN_COLUMNS if sources.corpora[name].single_signs else {}),
+            **sign_columns(sources.corpora[name]),
             "frames": ("frames", "d"),
             "rate_hz": ("rate (Hz)", "g"),
             "duration_s": ("length (s)", ".2f"),
             "unit": ("unit", ""),
             "joints": ("joints", "d"),
             "orientations": ("orientations", ""),
-            "signs": ("signs", "d"),
         },
         file=sources.shared(name, "recordings"),
         most=6,
@@ -490,9 +496,10 @@ def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
     return FigureView(
         label="",
         title=titled("Wrist speed", sources.corpora[name]),
-        caption=f"Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
-        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, half "
-        f"gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to refine.",
+        caption="Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
+        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, "
+        f"half gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to "
+        "refine.",
         svg=base.with_suffix(".svg"),
         files=[base.with_suffix(s) for s in (".svg", ".pdf")],
     )

@@ -50,9 +50,10 @@ class WarpSettings:
     stays, or from speed and curvature at the `first_sample`, as printed (2.4).
     most_speed_ratio, most_duration_ratio: top speed and duration of each segment lie within
     this factor of the recorded ones, either way (2.4: "comparable", no number).
-    straight_turn_rad: curvatures below this over the path's length count as this much: a path
-    that turns by less on its whole length is straight, and the law has no speed on it.
-    least_r_squared: R^2 of the law fitted again in each segment (Fig. 1: above 0.97).
+    straight_turn_rad: curvatures below this over the path's length are warped as if they were
+    that: a path that turns by less on its whole length is straight, and the law has no speed
+    on it. least_r_squared: R^2 of the law fitted again in each segment, to the curvature as it
+    is (Fig. 1: above 0.97).
     most_draws: after so many rejected draws the trajectory is left out.
     output_rate_hz: rate of the warped samples, None for that of the recording (2.2: 240 Hz).
     """
@@ -66,9 +67,9 @@ class WarpSettings:
     first_gain: str = "duration"
     most_speed_ratio: float = 2.0
     most_duration_ratio: float = 2.0
-    straight_turn_rad: float = 0.2
+    straight_turn_rad: float = 0.05
     least_r_squared: float = 0.97
-    most_draws: int = 1000
+    most_draws: int = 3000
     output_rate_hz: float | None = 240.0
 
     def __post_init__(self) -> None:
@@ -104,11 +105,11 @@ class GroundTruth:
     on the samples, with their R^2.
     durations_s, durations_recorded_s, top_speeds, top_speeds_recorded: (N,).
     segment: (M,), index of each sample's segment. speed: (M,), by central differences.
-    curvature: (M,), from three samples, not below least_curvature; NaN at the first and last
-    sample, which have no three. predicted_speed: (M,), by the fitted laws, NaN there too.
-    least_curvature: below it the path counts as straight; straight_share: share of the path's
-    length where it does. draws: number of draws, of which all but the last were rejected;
-    rejected: how many for which reason.
+    curvature: (M,), from three samples; NaN at the first and last, which have no three.
+    predicted_speed: (M,), by the fitted laws, NaN there too. least_curvature: below it the path
+    was warped as if it had that; straight_share: share of the path's length where it was.
+    draws: number of draws, of which all but the last were rejected; rejected: how many for
+    which reason.
     """
 
     positions: Floats
@@ -323,17 +324,18 @@ def _draw(path: _Path, spare: float, n: int, rng: np.random.Generator, s: WarpSe
 def _timing(path: _Path, draws: _Draws, i: int, s: WarpSettings) -> _Timing | str:
     """Warp time as draw i wants it (2.4: d tau / dt = v kappa^-beta / alpha), or reject it."""
     nodes, beta, log_gain = draws.nodes[i], draws.beta[i], draws.log_gain[i]
-    tau = np.zeros(len(path.time_s))
-    for j, (a, b) in enumerate(pairwise(nodes)):
-        here = slice(a, b + 1)
-        rate = path.speed[here] * np.exp(-beta[j] * path.log_k[here] - log_gain[j])
-        tau[a + 1 : b + 1] = tau[a] + np.cumsum((rate[1:] + rate[:-1]) / 2 * path.steps[a:b])
+    parts = list(pairwise(nodes))
+    slowness, durations = [], np.empty(len(parts))
+    for j, (a, b) in enumerate(parts):
+        rate = path.speed[a : b + 1] * np.exp(-beta[j] * path.log_k[a : b + 1] - log_gain[j])
+        slowness.append(rate)
+        durations[j] = (rate[1:] @ path.steps[a:b] + rate[:-1] @ path.steps[a:b]) / 2
     if s.first_gain == "duration":
-        gain = tau[-1] / path.time_s[-1]
+        gain = float(durations.sum()) / path.time_s[-1]
     else:
         gain = path.speed[0] * np.exp(-beta[0] * path.log_k[0])
-    tau /= gain
-    durations, recorded = np.diff(tau[nodes]), np.diff(path.time_s[nodes])
+    durations /= gain
+    recorded = np.diff(path.time_s[nodes])
     tops = gain * np.exp(draws.log_top[i])
     if _beyond(tops / draws.top_recorded[i], s.most_speed_ratio):
         return SPEED
@@ -341,6 +343,10 @@ def _timing(path: _Path, draws: _Draws, i: int, s: WarpSettings) -> _Timing | st
         return SHORT
     if _beyond(durations / recorded, s.most_duration_ratio):
         return DURATION
+    steps = [
+        (r[1:] + r[:-1]) / 2 * path.steps[a:b] for r, (a, b) in zip(slowness, parts, strict=True)
+    ]
+    tau = np.concatenate([[0.0], np.cumsum(np.concatenate(steps))]) / gain
     alpha = gain * np.exp(log_gain)
     laws = tuple(PowerLaw(float(a), float(b)) for a, b in zip(alpha, beta, strict=True))
     return _Timing(nodes, laws, tau, durations, recorded, tops, draws.top_recorded[i])
@@ -363,7 +369,7 @@ def _sampled(
     recorded_s = back(np.minimum(time_s, timing.tau_s[-1]))
     positions = np.asarray(path.curve(recorded_s))
     v = speed(positions, rate)
-    k = np.maximum(curvature(positions), path.least_curvature)  # NaN stays NaN
+    k = curvature(positions)
     boundaries = timing.tau_s[timing.nodes[1:-1]]
     segment = np.searchsorted(boundaries, time_s, side="right")
     predicted = np.full(samples, np.nan)

@@ -1,0 +1,75 @@
+"""Results over settings that a paper does not print: one mark a setting."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from signkin.figures.style import ACCENT, LEFT, MANUAL, NEUTRAL, RIGHT
+
+COLOURS = (RIGHT, MANUAL, ACCENT, LEFT)
+MARKERS = ("v", "o", "^", "s", "D")
+
+
+def plot_settings(
+    points: pd.DataFrame, column: str, *, ax: Axes, groups: Sequence[str], colour: str, marker: str,
+    paper: float | None = None,
+) -> Axes:  # fmt: skip
+    """Draw one outcome of all settings in columns, one a group; grey bars between them.
+
+    points: rows of the table `sensitivity`, with a column `group`. colour, marker: columns
+    whose values are told by colour and by shape. paper: the printed value, a dashed line.
+    """
+    colours = _kinds(points[colour], COLOURS)
+    shapes = _kinds(points[marker], MARKERS)
+    spread = np.linspace(-0.33, 0.33, max(len(colours) * len(shapes), 2))
+    order = [(c, m) for c in colours for m in shapes]
+    for row in points.itertuples():
+        value = getattr(row, column)
+        if pd.isna(value):
+            continue
+        c, m = str(getattr(row, colour)), str(getattr(row, marker))
+        x = groups.index(row.group) + spread[order.index((c, m))]
+        if row.printed == "yes":
+            ax.plot(x, value, "o", ms=8, mfc="none", mec="0.1", mew=0.9, zorder=4)
+        if row.default == "yes":
+            ax.plot(x, value, "*", ms=13, mfc="white", mec="0.1", mew=0.9, zorder=3)
+        ax.plot(
+            x, value, shapes[m], ms=3.6, color=colours[c], mec="none", alpha=0.9, zorder=5,
+        )  # fmt: skip
+    if paper is not None:
+        ax.axhline(paper, color="0.3", ls="--", lw=0.9, zorder=1)
+    for edge in range(1, len(groups)):
+        ax.axvline(edge - 0.5, color="0.88", lw=0.8, zorder=0)
+    ax.set_xlim(-0.5, len(groups) - 0.5)
+    ax.set_xticks(range(len(groups)), groups)
+    return ax
+
+
+def handles(
+    points: pd.DataFrame, colour: str, marker: str, names: Mapping[str, str]
+) -> list[Line2D]:
+    """Return legend handles; names: column -> what it is called."""
+    out = [
+        Line2D([], [], ls="none", marker="o", ms=4, color=c, label=f"{names[colour]} {value}")
+        for value, c in _kinds(points[colour], COLOURS).items()
+    ]
+    out += [
+        Line2D([], [], ls="none", marker=m, ms=4, color=NEUTRAL, label=f"{names[marker]} {value}")
+        for value, m in _kinds(points[marker], MARKERS).items()
+    ]
+    ring = {"marker": "o", "ms": 8, "mfc": "none", "mec": "0.1", "ls": "none"}
+    star = {"marker": "*", "ms": 11, "mfc": "white", "mec": "0.1", "ls": "none"}
+    out.append(Line2D([], [], label="as printed", **ring))  # type: ignore[arg-type]
+    out.append(Line2D([], [], label="default", **star))  # type: ignore[arg-type]
+    out.append(Line2D([], [], color="0.3", ls="--", lw=0.9, label="paper"))
+    return out
+
+
+def _kinds(values: pd.Series, palette: Sequence[str]) -> dict[str, str]:
+    kinds = list(dict.fromkeys(str(value) for value in values))
+    return {kind: palette[i % len(palette)] for i, kind in enumerate(kinds)}

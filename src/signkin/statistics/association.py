@@ -1,0 +1,126 @@
+"""How duration goes with distance: correlations, the isochrony exponent, shares; bootstrap."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+
+import numpy as np
+import statsmodels.api as sm
+from numpy.typing import NDArray
+from scipy import stats
+from statsmodels.stats.proportion import proportion_confint
+
+from signkin.statistics.findings import Finding, untestable
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+
+def bootstrap(
+    statistic: Callable[[Rows], Array | float],
+    units: Sequence[Hashable],
+    draws: int,
+    alpha: float,
+    rng: np.random.Generator,
+) -> tuple[Array, Array]:
+    """Return the percentile interval of a statistic of row numbers, by resampling units.
+
+    units: one label a row; rows of one label are drawn together (all different: single rows).
+    A draw for which the statistic cannot be computed (NaN) is left out of the quantiles.
+    """
+    labels = np.unique(np.asarray(units, dtype=object).astype(str), return_inverse=True)[1]
+    members = [np.flatnonzero(labels == i) for i in range(labels.max() + 1)]
+
+    def drawn(chosen: Rows) -> Array:
+        return np.asarray(statistic(np.concatenate([members[i] for i in chosen])), dtype=float)
+
+    values = np.stack([drawn(rng.integers(0, len(members), len(members))) for _ in range(draws)])
+    low, high = np.nanquantile(values, [alpha / 2, 1 - alpha / 2], axis=0)
+    return low, high
+
+
+def resampled_units(recordings: Sequence[Hashable], least: int) -> tuple[list[Hashable], str]:
+    """Return the units to resample and their name: recordings from `least` on, else rows."""
+    if len(set(recordings)) >= least:
+        return list(recordings), "recordings"
+    return list(range(len(recordings))), "transitions"
+
+
+def correlations(
+    distance: Array, duration: Array, recordings: Sequence[Hashable], comparison: str,
+    alpha: float, draws: int, least_recordings: int, rng: np.random.Generator,
+) -> list[Finding]:  # fmt: skip
+    """Return Pearson's and Spearman's correlation with bootstrap intervals."""
+    n = len(distance)
+    out = []
+    tests = {"Pearson": stats.pearsonr, "Spearman": stats.spearmanr}
+    for test, function in tests.items():
+        reason = _why_no_line(distance, duration)
+        if reason:
+            out.append(untestable(test, comparison, n, reason))
+            continue
+        units, unit = resampled_units(recordings, least_recordings)
+
+        def of(rows: Rows, ranks: bool = test == "Spearman") -> float:
+            x, y = distance[rows], duration[rows]
+            if np.ptp(x) == 0 or np.ptp(y) == 0:
+                return float("nan")
+            if ranks:
+                x, y = stats.rankdata(x), stats.rankdata(y)
+            return float(np.corrcoef(x, y)[0, 1])
+
+        low, high = bootstrap(of, units, draws, alpha, rng)
+        r, p = function(distance, duration)
+        out.append(
+            Finding(test, comparison, "r", float(r), df2=n - 2, p=float(p),
+                    effect_name="correlation", effect=float(r), effect_low=float(low),
+                    effect_high=float(high), n=n, note=f"interval: bootstrap of {unit}")
+        )  # fmt: skip
+    return out
+
+
+def isochrony(distance: Array, duration: Array, comparison: str, alpha: float) -> Finding:
+    """Return the exponent b of duration = a distance^b, by least squares on the logarithms.
+
+    1: constant speed; 0: isochrony in full, the same duration over any distance. Robust (HC3)
+    standard errors. Transitions of zero length or distance have no logarithm: left out, told.
+    """
+    test = "isochrony exponent"
+    there = (distance > 0) & (duration > 0)
+    left = int((~there).sum())
+    x, y = distance[there], duration[there]
+    n = len(x)
+    note = f"{left} of zero length or distance left out" if left else ""
+    reason = _why_no_line(x, y) or ("fewer than four transitions" if n < 4 else "")
+    if reason:
+        return untestable(test, comparison, n, reason).noted(note)
+    fit = sm.OLS(np.log(y), sm.add_constant(np.log(x))).fit(cov_type="HC3", use_t=True)
+    low, high = fit.conf_int(alpha)[1]
+    return Finding(
+        test, comparison, "t", float(fit.tvalues[1]), df2=n - 2, p=float(fit.pvalues[1]),
+        effect_name="exponent", effect=float(fit.params[1]), effect_low=float(low),
+        effect_high=float(high), n=n,
+        note="0: same duration over any distance, 1: constant speed; p is for 0",
+    ).noted(note)  # fmt: skip
+
+
+def share(held: NDArray[np.bool_], test: str, comparison: str, alpha: float) -> Finding:
+    """Return a share with its Wilson interval."""
+    n = len(held)
+    if not n:
+        return untestable(test, comparison, n, "no transition has a distance")
+    low, high = proportion_confint(int(held.sum()), n, alpha=alpha, method="wilson")
+    return Finding(
+        test, comparison, effect_name="share", effect=float(held.mean()), effect_low=float(low),
+        effect_high=float(high), n=n, note="no test: the diamond is drawn to hold this share",
+    )  # fmt: skip
+
+
+def _why_no_line(x: Array, y: Array) -> str:
+    if len(x) < 3:
+        return "fewer than three transitions with this distance"
+    if np.ptp(x) == 0:
+        return "all distances are equal"
+    if np.ptp(y) == 0:
+        return "all durations are equal"
+    return ""

@@ -1,0 +1,50 @@
+"""Which groups differ from which: Tukey's HSD and Games-Howell, with Cohen's d."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+from scipy import stats
+
+from signkin.errors import listed
+from signkin.statistics.effects import cohens_d
+from signkin.statistics.findings import Finding, Groups, untestable
+
+PAIRWISE = {"Tukey HSD": True, "Games-Howell": False}
+
+
+def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
+    """Return every pair of groups by Tukey's HSD and by Games-Howell.
+
+    p is adjusted for all pairs of the test. The statistic is the difference of the means in s,
+    the first less the second. Groups of one value are left out; told in the note.
+    """
+    out: list[Finding] = []
+    for test, equal in PAIRWISE.items():
+        kept = {k: g for k, g in groups.items() if len(g) > 1}
+        if not equal:
+            kept = {k: g for k, g in kept.items() if np.ptp(g) > 0}
+        left = [k for k in groups if k not in kept]
+        note = f"left out, one value or no variance: {listed(left)}" if left else ""
+        n = sum(map(len, kept.values()))
+        nothing = all(np.ptp(g) == 0 for g in kept.values())
+        if len(kept) < 2 or n - len(kept) < 1 or nothing:
+            reason = "fewer than two groups that vary" + (f"; {note}" if note else "")
+            out.append(untestable(test, comparison, n, reason))
+            continue
+        found = stats.tukey_hsd(*kept.values(), equal_var=equal)
+        values = list(kept.values())
+        for (i, a), (j, b) in combinations(enumerate(kept), 2):
+            d = cohens_d(values[i], values[j], alpha)
+            without = "" if np.isfinite(d[0]) else "no d: the two groups have no variance"
+            out.append(
+                Finding(
+                    test, f"{comparison}: {a} - {b}", "difference (s)",
+                    float(found.statistic[i, j]), p=float(found.pvalue[i, j]),
+                    effect_name="Cohen's d", effect=d[0], effect_low=d[1], effect_high=d[2],
+                    n=len(values[i]) + len(values[j]),
+                    note="; ".join(filter(None, (without, note))),
+                )
+            )  # fmt: skip
+    return out
