@@ -13,6 +13,7 @@ import yaml
 
 from signkin import SignkinError
 from signkin.__main__ import main
+from signkin.audit.__main__ import document
 from signkin.audit.ledger import PRINT, audit, evidence_for
 from signkin.audit.paper import read_paper
 from signkin.audit.specifications import by_choice, specifications
@@ -144,6 +145,49 @@ def test_first_digits_turn_what_rests_on_them(root, naert, change, expected):
     assert turned - {"N07", "N03", "N04"} == expected - {"N03", "N04"}
 
 
+@pytest.mark.parametrize(
+    "check, verdict",
+    [
+        ({"check": "groups_differ", "differ": False, "test": "t", "rows": ["a", "b"]},
+         "consistent"),
+        ({"check": "groups_differ", "differ": True, "test": "t", "rows": ["a", "c"]}, "consistent"),
+        ({"check": "groups_differ", "differ": False, "test": "welch"}, "inconsistent"),
+        ({"check": "groups_differ", "differ": True}, "consistent"),
+        ({"check": "p_value", "kind": "t", "statistic": "2.31", "df": [18], "p": "0.03"},
+         "consistent"),
+        ({"check": "p_value", "kind": "t", "statistic": "2.31", "df": [18], "p": "<0.01"},
+         "inconsistent"),
+        ({"check": "p_reachable", "groups": [3, 3], "p": "<0.01"}, "inconsistent"),
+        ({"check": "total", "column": "n", "equals": "36"}, "consistent"),
+        ({"check": "total", "column": "n", "equals": "35"}, "inconsistent"),
+        ({"check": "grimmer", "grain": "1"}, "inconsistent"),
+        ({"check": "grimmer", "grain": "0.1"}, "consistent"),
+        ({"check": "relation", "holds": "m > 4.02"}, "not testable"),
+    ],
+)  # fmt: skip
+def test_claims_about_another_papers_table_need_no_code(tmp_path, check, verdict):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    # 12 values each: sums 49.2, 48.0, 84.0; SDs of samples in tenths.
+    rows = [("a", "12", "4.10", "0.90"), ("b", "12", "4.00", "1.00"), ("c", "12", "7.00", "0.80")]
+    text = "\n".join(["group,n,mean,sd", *(",".join(row) for row in rows)])
+    (folder / "t.csv").write_text(text + "\n")
+    if check["check"] in ("groups_differ", "total", "grimmer"):
+        check = {"table": "t.csv", **check}
+    claim = {"id": "C1", "location": "p. 1", "claim": "So.", "needs": "nothing",
+             "printed": {"m": "4.0"}, "corpora": {"missing": "print only"},
+             "published": {"checks": [{"reads": "So.", **check}]}}  # fmt: skip
+    content = {"paper": "Me 2026", "study": "mine", "claims": [claim]}
+    (folder / "claims.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+    found = audit([read_paper(folder)]).claims.iloc[0]
+    assert found["verdict"] == verdict, found["note"]
+
+
+def test_the_checks_are_documented(root):
+    text = (root / "docs/claims.md").read_text(encoding="utf-8")
+    assert document() in text, "run: python -m signkin.audit, and put it into docs/claims.md"
+
+
 # --- corpora
 
 
@@ -271,7 +315,7 @@ BAD = {
     ),
     "an unknown check": (
         "claims.yaml", "check: total", "check: totl",
-        r"claims.yaml, line 12: claim N01 names an unknown check 'totl'; expected anova, chains",
+        r"claims.yaml, line 12: claim N01 names an unknown check 'totl'; expected chains, formula",
     ),
     "an unknown table": (
         "claims.yaml", "table: table2.csv, column", "table: table3.csv, column",

@@ -295,36 +295,46 @@ def range_possible(
 
 
 @on_print
-def anova(
+def groups_differ(
     context: OnPrint,
     table: str,
-    significant: bool,
+    differ: bool,
+    test: str = "anova",
     alpha: float = 0.05,
     grain: str | None = None,
+    rows: Sequence[str] = (),
     n: str = "n",
     mean: str = "mean",
     sd: str = "sd",
 ) -> list[Finding]:
-    """A one-way ANOVA from the printed groups is significant, or not, as the paper says.
+    """A test recomputed from printed groups is significant (`differ: true`), or is not.
 
-    Also tells the smallest effect that the design finds with a power of 0.8: below it, not
-    significant says little.
+    test: anova, welch or t (Welch's, two groups). rows: names in the first column; all without.
+    For anova the smallest effect is told that the design finds with a power of 0.8: below it,
+    not significant says little.
     """
-    groups = [group for _, group in _groups(context, table, n, mean, sd, grain)]
-    test = summaries.anova(groups)
-    f = significance.smallest_effect([g.n for g in groups], 0.8, alpha)
-    both = {test.p.low < alpha, test.p.high < alpha}
-    fits = None if len(both) == 2 else both == {significant}
-    assert test.effect is not None
-    why = (
-        f"F({test.df1:g}, {test.df2.value:g}) = {test.statistic.value:.3f}, p = "
-        f"{test.p.value:.3f}, eta squared {test.effect.value:.3f}; with these n, effects below "
-        f"eta squared {f * f / (1 + f * f):.2f} (f = {f:.2f}) are missed more than 20 % of the time"
-    )
-    word = "significant" if significant else "not significant"
-    recomputed = f"F = {test.statistic.value:.3f}, p = {test.p.value:.3f}"
-    interval = f"F {test.statistic.low:.4f} to {test.statistic.high:.4f}, p {test.p.low:.4f} to "
-    interval += f"{test.p.high:.4f}"
+    named = _groups(context, table, n, mean, sd, grain)
+    _want_names(rows, dict(named), table)
+    groups = [group for name, group in named if not rows or name in rows]
+    tests = {"anova": summaries.anova, "welch": summaries.welch, "t": summaries.t_test}
+    if test not in tests:
+        raise SignkinError(f"test: {test}", expected=listed(tests))
+    found = tests[test](groups)
+    both = {found.p.low < alpha, found.p.high < alpha}
+    fits = None if len(both) == 2 else both == {differ}
+    letter = "t" if test == "t" else "F"
+    df = f"{found.df2.value:.4g}" if test == "t" else f"{found.df1:g}, {found.df2.value:.4g}"
+    why = f"{letter}({df}) = {found.statistic.value:.3f}, p = {found.p.value:.3f}"
+    if test == "anova" and found.effect is not None:
+        f = significance.smallest_effect([g.n for g in groups], 0.8, alpha)
+        why += (
+            f", eta squared {found.effect.value:.3f}; with these n, effects below eta squared "
+            f"{f * f / (1 + f * f):.2f} (f = {f:.2f}) are missed more than 20 % of the time"
+        )
+    word = "significant" if differ else "not significant"
+    recomputed = f"{letter} = {found.statistic.value:.3f}, p = {found.p.value:.3f}"
+    statistic = f"{found.statistic.low:.4f} to {found.statistic.high:.4f}"
+    interval = f"{letter} {statistic}, p {found.p.low:.4f} to {found.p.high:.4f}"
     return [Finding(_verdict(fits), why, word, recomputed, interval, context.source(table))]
 
 

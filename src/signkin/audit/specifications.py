@@ -60,13 +60,13 @@ def levels_of(column: pd.Series) -> list[str]:
 
 
 def by_choice(
-    specs: pd.DataFrame, paper: str, claim: str, corpus: str, names: list[str]
+    specs: pd.DataFrame, paper: str, claim: str, corpus: str, names: list[str], left_out: int = 0
 ) -> pd.DataFrame:
     """Return the table `specifications`: how often the claim holds, overall and by level.
 
     `share_decided` of a choice: the variance of holds between its levels, over its variance in
     all (eta squared, among the specifications that the choice plays a part in). 0 where the
-    claim holds in all of them or in none.
+    claim holds in all of them or in none. left_out: specifications without an estimate.
     """
     rows = [_row(specs, "all", "")]
     decided: dict[str, float] = {}
@@ -81,6 +81,8 @@ def by_choice(
                 {**_row(part[part[name] == level], name, level), "share_decided": decided[name]}
             )
     rows[0]["note"] = _told(specs, decided)
+    if left_out:
+        rows[0]["note"] = f"{rows[0]['note']}; {left_out} more have no estimate"
     out = pd.DataFrame(rows)
     out.insert(0, "paper", paper)
     out.insert(1, "claim", claim)

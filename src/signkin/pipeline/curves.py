@@ -14,7 +14,7 @@ from signkin.audit.expressions import evaluate
 from signkin.audit.ledger import evidence_for
 from signkin.audit.paper import Curve, Paper
 from signkin.audit.registry import Evidence, Missing, OnCorpus
-from signkin.audit.specifications import by_choice, levels_of, specifications
+from signkin.audit.specifications import NONE, by_choice, levels_of, specifications
 from signkin.figures import specification, style
 
 
@@ -39,16 +39,20 @@ def draw_curves(
     for paper in papers:
         evidence = evidence_for(paper.study, corpora, files, results)
         for curve in paper.curves:
-            specs = {
-                part.name: found
-                for part in evidence
-                if (found := _specs(paper, curve, part, files, results)) is not None
-            }
+            specs, left_out = {}, {}
+            for part in evidence:
+                table = _table(paper, curve, part, files, results)
+                if table is None:
+                    continue
+                found = specifications(table, curve.choices, curve.estimate, curve.reference)
+                if len(found):
+                    specs[part.name] = found
+                    left_out[part.name] = len(table) - len(found)
             if specs:
-                yield _drawn(paper, curve, specs, corpora)
+                yield _drawn(paper, curve, specs, left_out, corpora)
 
 
-def _specs(
+def _table(
     paper: Paper, curve: Curve, evidence: Evidence, files: Sequence[Path], results: Path
 ) -> pd.DataFrame | None:
     shared = results / paper.study / f"{curve.table}.csv"
@@ -67,16 +71,20 @@ def _specs(
     if curve.holds:
         answers = evaluate(curve.holds, {str(c): table[c] for c in table.columns})
         table = table.assign(holds=answers)
-    found = specifications(table, curve.choices, curve.estimate, curve.reference)
-    return found if len(found) else None
+    return table
 
 
 def _drawn(
-    paper: Paper, curve: Curve, specs: Mapping[str, pd.DataFrame], corpora: Mapping[str, bool]
+    paper: Paper,
+    curve: Curve,
+    specs: Mapping[str, pd.DataFrame],
+    left_out: Mapping[str, int],
+    corpora: Mapping[str, bool],
 ) -> DrawnCurve:
     names = list(curve.choices.values())
     whole = pd.concat(specs.values())
     levels = {name: levels_of(whole[name]) for name in names}
+    levels = {name: [v for v in values if v != NONE] for name, values in levels.items()}
     levels = {name: values for name, values in levels.items() if len(values) > 1}
     rows = sum(map(len, levels.values()))
     figure, axes = plt.subplots(
@@ -102,7 +110,7 @@ def _drawn(
     )
     points.insert(0, "corpus", points.pop("corpus"))
     parts = [
-        by_choice(found, paper.folder.name, curve.claim, corpus, names)
+        by_choice(found, paper.folder.name, curve.claim, corpus, names, left_out[corpus])
         for corpus, found in specs.items()
     ]
     name = f"{paper.folder.name}_{curve.claim}"
