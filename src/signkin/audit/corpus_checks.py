@@ -240,6 +240,23 @@ def groups_differ(
                     source=context.source(table))]  # fmt: skip
 
 
+@on_corpus
+def mostly(
+    context: OnCorpus, table: str, holds: str, share: float, missing: str, where: str = ""
+) -> list[Finding]:
+    """A condition for the claim to be tested at all: `holds` in at least this share of the rows.
+
+    With `gate: true` the claim is not testable where it is not met; `missing` says why.
+    """
+    frame = _rows(context, table, where)
+    answers = _numbers(context, table, frame, holds).astype(bool)
+    told = f"{holds} in {int(answers.sum())} of {len(answers)} rows"
+    if answers.mean() < share:
+        raise Missing(f"{missing} ({told})")
+    return [Finding(HOLDS, told, recomputed=f"{answers.mean():.0%}",
+                    source=context.source(table))]  # fmt: skip
+
+
 def _taken(
     context: OnCorpus, table: str, frame: pd.DataFrame, by: Sequence[str], take: Mapping[str, str]
 ) -> pd.DataFrame:

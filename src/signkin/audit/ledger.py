@@ -121,6 +121,8 @@ def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
             out.append(_Done(check, run(check, on_corpus)))
         except Missing as missing:
             out.append(_Done(check, (), str(missing)))
+            if check.gate:
+                return out[-1:]
     return out
 
 

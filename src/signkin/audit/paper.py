@@ -15,7 +15,7 @@ import yaml
 from signkin.errors import SignkinError, listed
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow" / "schemas" / "claims.schema.yaml"
-OWN = ("check", "reads", "decisive", "only")  # keys of a check that are no arguments of it
+OWN = ("check", "reads", "decisive", "only", "gate")  # keys of a check that are no arguments of it
 GUIDE = "See docs/claims.md."
 
 
@@ -53,6 +53,7 @@ class Check:
     reads: str
     decisive: bool
     only: str  # `simulated` or `real`: corpora it can be run on; empty for all
+    gate: bool  # without it the claim cannot be tested
     line: int
 
 
@@ -195,6 +196,7 @@ def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) ->
                     reads=c.get("reads", ""),
                     decisive=c.get("decisive", True),
                     only=c.get("only", ""),
+                    gate=c.get("gate", False),
                     line=lines[("claims", i, side, "checks", j)],
                 )
                 for j, c in enumerate(claim[side].get("checks", []))

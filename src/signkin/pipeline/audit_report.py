@@ -49,7 +49,11 @@ def audit_section(results: Path) -> Section:
         "printed numbers and on every corpus. On printed numbers a claim is consistent (it can be "
         "right) or inconsistent; on a corpus it holds or fails.",
     ]
-    text += [f"Inconsistent on its own numbers: {row.id}. {row.note}." for row in bad.itertuples()]
+    text += [
+        f"Inconsistent on the paper's own numbers: {row.id} ({row.location}), that "
+        f"“{row.claim.rstrip('.')}”: {row.note}."
+        for row in bad.itertuples()
+    ]
     return Section(
         "audit",
         "The audit of the claims",
