@@ -306,6 +306,9 @@ BAD = {
         "table2.csv", "0.26833", "0,26833",
         r"table2.csv, line 2: the row has more or fewer cells than the header",
     ),
+    "n of 0": (
+        "table2.csv", "0000,6", "0000,0", r"table2.csv, line 2: n is 0 beside the mean 0.26833",
+    ),
     "n of 2.5": (
         "table2.csv", "0000,6", "0000,2.5", r"table2.csv, line 2: n is '2.5'; expected a whole",
     ),
@@ -366,7 +369,7 @@ def test_bad_input_is_one_sentence_with_file_and_line(root, tmp_path, capsys, ca
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_an_n_of_0_is_a_row_without_values_and_one_below_is_bad(naert):
+def test_an_n_below_0_is_bad(naert):
     with pytest.raises(SignkinError, match=r"table2.csv, line 2: n is '-1'; expected a whole"):
         verdicts(naert([("0000", "n", "-1")]))
 

@@ -27,12 +27,19 @@ ABSENT = ("", "/", "-", "–")
 
 
 def _filled(
-    context: OnPrint, table: str, n: str, suffixes: Sequence[str]
+    context: OnPrint, table: str, n: str, mean: str, suffixes: Sequence[str]
 ) -> Iterator[tuple[PrintedRow, str, str]]:
-    """Yield (row, suffix, name) of the rows that have values."""
+    """Yield (row, suffix, name) of the rows that have values; n = 0 beside a mean is an error."""
     for row in context.paper.table(table):
         for suffix in suffixes:
             text = row[f"{n}{suffix}"]
+            if text == "0" and row[f"{mean}{suffix}"] not in ABSENT:
+                raise SignkinError(
+                    f"n is 0 beside the mean {row[f'{mean}{suffix}']}",
+                    file=row.file,
+                    place=row.place,
+                    expected="a whole number from 1, or no mean",
+                )
             if text in ABSENT or text == "0":
                 continue
             name = next(iter(row.cells.values()))
@@ -55,7 +62,7 @@ def _groups(
     suffix: take the columns with it (`_without_outlier`) where a row has them filled.
     """
     out = []
-    for row, _, name in _filled(context, table, n, ("",)):
+    for row, _, name in _filled(context, table, n, mean, ("",)):
         end = suffix if suffix and row[f"{n}{suffix}"] not in ABSENT else ""
         cells = [row[f"{c}{end}"] for c in (n, mean, sd)]
         try:
@@ -97,7 +104,7 @@ def grim(
 ) -> list[Finding]:
     """Each row's mean is possible for its n on the grain (GRIM)."""
     out = []
-    for row, suffix, name in _filled(context, table, n, suffixes):
+    for row, suffix, name in _filled(context, table, n, mean, suffixes):
         try:
             found = grim_of(row[f"{mean}{suffix}"], row[f"{n}{suffix}"], grain)
         except SignkinError as error:
@@ -123,7 +130,7 @@ def grimmer(
     all rows.
     """
     found = []
-    for row, suffix, name in _filled(context, table, n, suffixes):
+    for row, suffix, name in _filled(context, table, n, mean, suffixes):
         cells = [row[f"{c}{suffix}"] for c in (mean, sd, n)]
         asked = "either" if divisor == "same" else divisor
         try:
@@ -271,7 +278,7 @@ def range_possible(
         if name
     )
     out = []
-    for row, _, name in _filled(context, table, n, ("",)):
+    for row, _, name in _filled(context, table, n, mean, ("",)):
         end = suffix if suffix and row[f"{n}{suffix}"] not in ABSENT else ""
         cells = [row[f"{c}{end}"] for c in (n, mean, sd)]
         if cells[0] == "1":
