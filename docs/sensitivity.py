@@ -62,7 +62,8 @@ def measures(
     intervals, minima = read.table("intervals"), found.table("minima", corpus.unit)
     bounds = coarticulation.boundaries(corpus, names, intervals, minima, config["refinement"])
     frames = {str(f["recording"].iloc[0]): f for f in found.frames}
-    _, raw, _ = coarticulation.transitions(corpus, read.recordings, frames, intervals, bounds, config)
+    made = coarticulation.transitions(corpus, read.recordings, frames, intervals, bounds, config)
+    raw = made[1]
     moves = with_normalised(raw, corpus.unit)
     quality, _ = coarticulation.refinement(
         corpus, read.table("recordings"), intervals, minima, bounds,

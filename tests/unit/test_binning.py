@@ -125,7 +125,6 @@ def test_probabilities_are_consistent_with_one_another(seed, longest):
         assert (np.linalg.eigvalsh(found.noise_covariance(order)) > 0).all()
 
 
-@pytest.mark.xfail(strict=True, reason="posteriors pass over segments that matter at M = 39")
 def test_boundaries_are_as_many_as_expected_where_every_bin_is_a_segment():
     found = fit(walk(40, 2, 27, 3.0), (3,), PRIOR)
     assert found.map_count(3) == 39
@@ -359,7 +358,6 @@ def test_a_prior_that_does_not_fit_the_data_is_refused(prior, told):
         fit(GOOD, prior=prior)
 
 
-@pytest.mark.xfail(strict=True, reason="the prior does not know the trajectory's name")
 @pytest.mark.parametrize(("prior", "told"), MISFITS)
 def test_a_prior_that_does_not_fit_names_the_trajectory(prior, told):
     with pytest.raises(SignkinError, match=told) as caught:
@@ -367,14 +365,12 @@ def test_a_prior_that_does_not_fit_names_the_trajectory(prior, told):
     assert "take 7" in str(caught.value)
 
 
-@pytest.mark.xfail(strict=True, reason="squares overflow, and their log is no infinity")
 def test_data_whose_squares_overflow_are_refused():
     with pytest.raises(SignkinError, match="take 7"):
         fit(GOOD * 1e200, (0,), PRIOR, name="take 7")
 
 
 @pytest.mark.parametrize(("count", "options"), [(25, {}), (-1, {}), (1, {"max_segment_bins": 5})])
-@pytest.mark.xfail(strict=True, reason="a cut into so many parts is made up")
 def test_an_impossible_number_of_boundaries_is_refused(count, options):
     found = fit(GOOD, (0,), PRIOR, **options)
     with pytest.raises(SignkinError, match=str(count)):

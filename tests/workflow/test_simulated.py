@@ -189,3 +189,22 @@ def test_two_runs_in_one_folder_do_not_collide(simulated_run):
         second = run(simulated_run.folder)
     assert second.status == 1
     assert "another run is at work" in second.text
+
+
+def test_duration_models_find_the_printed_surface_and_simple_is_worse(simulated_run):
+    theta = table(simulated_run, "duration_coefficients")
+    assert (theta.loc[theta["model"] == "SURFACE", "published_inside"] == "yes").all()
+    errors = table(simulated_run, "duration_models").set_index(["model", "evaluation"])
+    for evaluation in ("leave_one_out", "leave_one_recording_out"):
+        simple, surface = (errors.loc[(m, evaluation)] for m in ("SIMPLE", "SURFACE"))
+        assert simple["mean_error_low_s"] > surface["mean_error_high_s"]
+    statistics = table(simulated_run, "statistics")
+    one = statistics[
+        (statistics["test"] == "one-way ANOVA")
+        & (statistics["question"] == "type")
+        & (statistics["outliers"] == "kept")
+        & (statistics["effect_name"] == "eta squared")
+    ].iloc[0]
+    # What the sums and sums of squares of the printed Table 2 give.
+    assert (one["df1"], one["df2"]) == (12, 76)
+    assert round(one["statistic"], 3) == 0.752 and round(one["p"], 3) == 0.696

@@ -157,6 +157,81 @@ rule sensitivity:
         "../scripts/sensitivity.py"
 
 
+rule long_series:
+    """Wrists of continuous recordings as long series, with a longest segment."""
+    input:
+        recordings=rules.ingest.output.recordings,
+    output:
+        wrist_posteriors=SHARD + "/wrist_posteriors.csv",
+        wrist_boundaries=SHARD + "/wrist_boundaries.csv",
+        binning_left_out=SHARD + "/wrists_left_out.csv",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/long_series.log",
+    threads: 2
+    params:
+        code=PLAN.digest("long_series.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {
+                k: config["binning"][k] for k in ("lowpass", "prior", "continuous")
+            },
+        },
+    script:
+        "../scripts/long_series.py"
+
+
+rule one_wrist:
+    """Two papers, one wrist: boundaries by binning against speed minima and tags."""
+    input:
+        wrist_posteriors=of_shards(rules.long_series.output.wrist_posteriors),
+        wrist_boundaries=of_shards(rules.long_series.output.wrist_boundaries),
+        binning_left_out=of_shards(rules.long_series.output.binning_left_out),
+        about=rules.gather.output.recordings,
+        minima=rules.gather.output.minima,
+        tags=branch(
+            lambda w: w.corpus in PLAN.tagged,
+            then=rules.naert_tables.output.boundaries,
+            otherwise=[],
+        ),
+        frames=of_shards(rules.kinematics.output.frames),
+    output:
+        posteriors=STUDY + "/wrist_posteriors.csv",
+        boundaries=STUDY + "/wrist_boundaries.csv",
+        left_out=STUDY + "/wrists_left_out.csv",
+        table=STUDY + "/one_wrist.csv",
+        csv=STUDY + "/fig_one_wrist.csv",
+        svg=STUDY + "/fig_one_wrist.svg",
+        pdf=STUDY + "/fig_one_wrist.pdf",
+        caption=STUDY + "/one_wrist.txt",
+    log:
+        "<logs>/endres2013/{corpus}/one_wrist.log",
+    params:
+        code=PLAN.digest("one_wrist.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={k: config["binning"][k] for k in ("window_s", "continuous")},
+    script:
+        "../scripts/one_wrist.py"
+
+
+rule binning_elan:
+    """Segments by binning in the .eaf, as tiers of their own."""
+    input:
+        boundaries=rules.one_wrist.output.boundaries,
+        about=rules.gather.output.recordings,
+        annotation=lambda w: PLAN.annotation_files(w.corpus),
+    output:
+        folder=directory(STUDY + "/eaf"),
+    log:
+        "<logs>/endres2013/{corpus}/elan.log",
+    params:
+        code=PLAN.digest("binning_elan.py"),
+        data=lambda w: str(PLAN.folders[w.corpus]),
+    script:
+        "../scripts/binning_elan.py"
+
+
 rule binning_scheme:
     """The model as a drawing (Fig. 2)."""
     output:
@@ -177,4 +252,6 @@ rule endres2013:
         collect(rules.endres_tables.output, corpus=PLAN.single_signs),
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
         collect(rules.sensitivity.output, corpus=PLAN.single_signs),
+        collect(rules.one_wrist.output, corpus=PLAN.continuous),
+        collect(rules.binning_elan.output, corpus=PLAN.with_elan),
         rules.binning_scheme.output,

@@ -24,11 +24,13 @@ rule report:
     """The page you are reading."""
     input:
         rules.naert2017.input,
+        rules.endres2013.input,
         rules.naert2017_durations.input,
         rules.audit.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         speeds=collect(rules.wrist_speeds.output, corpus=PLAN.untagged),
+        endres=PLAN.papers / "endres2013" / "exhibits.yaml",
         paper=[
             PLAN.papers / "naert2017" / name
             for name in ("exhibits.yaml", "constants.csv", "table2.csv")

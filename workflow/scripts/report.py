@@ -14,6 +14,7 @@ with job(snakemake):
         corpora=corpora,
         missing=snakemake.params.missing,
         paper=Path(snakemake.input.paper[0]).parent,
+        endres=Path(snakemake.input.endres).parent,
         config=snakemake.params.config,
     )
     page_file.write_text(render(make_page(sources), page_file.parent), encoding="utf-8")

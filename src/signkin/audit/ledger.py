@@ -138,11 +138,11 @@ def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> 
     open_ = [(t, d) for t, d in zip(told, done, strict=True) if d.verdict == UNDECIDABLE]
     if all(d.verdict == UNDECIDABLE for d in done) or any(d.check.decisive for _, d in open_):
         missing = claim.published_missing if evidence is None else f"needs {claim.needs}"
-        words = [t for t, _ in open_]
+        words = list(dict.fromkeys(t for t, _ in open_))
         if missing and missing not in words:
             words.append(missing)
         return NOT_TESTABLE, "; ".join(words)
-    return good, "; ".join(told)
+    return good, "; ".join(dict.fromkeys(told))
 
 
 def _told(done: _Done) -> str:

@@ -585,6 +585,7 @@ def posterior_of_order(
     for m in range(counts):
         total += math.exp(log_by_count[m] - top)
     lost = 0.0
+    least = 1.0  # of the sums that matter: a segment must be negligible beside the smallest
     # before[p]: sums over the ways to come to p with k segments to go, P(M | D) folded in.
     before[:] = 0.0
     for m in range(counts):
@@ -593,8 +594,10 @@ def posterior_of_order(
         if LANES <= c < columns - LANES and ways[0, c] >= UNDERFLOW:
             if probability[m] > NEGLIGIBLE:
                 before[0, c] = probability[m] / ways[0, c]
+                least = min(least, ways[0, c])
         else:
             lost += probability[m]
+    negligible = NEGLIGIBLE * least
     for p in range(bins):
         row, source, target = weight[p], before[p], segments[p]
         length = min(longest, bins - p)
@@ -615,7 +618,7 @@ def posterior_of_order(
             continue
         for n in range(length):
             w = row[n]
-            if w <= NEGLIGIBLE:
+            if w <= negligible:
                 continue
             shift = offset[p] - offset[p + 1 + n] - 1
             low = max(first, LANES - shift)

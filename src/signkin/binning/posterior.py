@@ -35,6 +35,7 @@ BAND = 32
 BAND_CUT_MASS = 1e-6
 CLEARANCE_BINS = 3
 TAIL_STEPS = 4
+MOST_NOISES = 1e60  # squares and their determinants overflow above
 NO_CANCELLATION = 0.01
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 PENALTIES = (8.0, 2.0, 1.0, 0.5, 0.2, 0.0, -0.5, -2.0, -8.0)  # in units of ln T, for bounds
@@ -98,10 +99,19 @@ class Posterior:
         return greedy_maxima(self.boundary_probability(order), wanted)
 
     def map_segmentation(self, order: int, count: int | None = None) -> NDArray[np.int64]:
-        """Return the inner boundaries of the most probable segmentation with `count` of them."""
+        """Return the inner boundaries of the most probable segmentation with `count` of them.
+
+        Raises SignkinError for a count that no segmentation has.
+        """
         wanted = self.map_count(order) if count is None else count
-        evidence = self._evidence(order)
-        return kernels.best_boundaries(evidence, wanted + 1)
+        fewest = -(-len(self.x) // self.max_segment_bins) - 1
+        if not fewest <= wanted <= len(self.x) - 1:
+            raise SignkinError(
+                f"{wanted} boundaries in {len(self.x)} bins",
+                place="count",
+                expected=f"from {fewest} to {len(self.x) - 1}",
+            )
+        return kernels.best_boundaries(self._evidence(order), wanted + 1)
 
     def expected_trajectory(self, order: int) -> Floats:
         """Return the posterior mean of the trajectory, (T, L), averaged over segmentations."""
@@ -170,9 +180,21 @@ def fit(
             f"max_segment_bins is {longest}", file=name, expected="a whole number from 1"
         )
     longest = min(longest, bins)
+    if max_count is not None and (max_count != int(max_count) or max_count < 0):
+        raise SignkinError(f"max_count is {max_count}", file=name, expected="a whole number from 0")
     n_orders = max(wanted) + 1
-    made = tables(prior, bins, longest, dims, n_orders, dt_s)
+    try:
+        made = tables(prior, bins, longest, dims, n_orders, dt_s)
+    except SignkinError as error:
+        raise error.at(file=name) from error
     whitened = _whitened(x, prior)
+    if not np.abs(whitened).max() < MOST_NOISES:
+        raise SignkinError(
+            f"positions up to {np.abs(whitened).max():.1e} times the prior's noise",
+            file=name,
+            expected=f"less than {MOST_NOISES:.0e}",
+            todo="Check the unit of the data against that of noise_sd.",
+        )
     evidence = _evidence(whitened, made, longest)
     every = max_count is not None or bins <= EVERY_COUNT_UP_TO
     found = (_counted if every else _in_band)(evidence, wanted, bins, longest, max_count)
@@ -279,9 +301,16 @@ class _Found:
 def _checked(
     X: Floats, orders: Sequence[int], name: str, least_bins: int = 2
 ) -> tuple[Floats, tuple[int, ...]]:
-    x = np.ascontiguousarray(np.atleast_2d(np.asarray(X, dtype=float)))
-    if np.ndim(X) == 1:
-        x = np.ascontiguousarray(x.T)
+    try:
+        x = np.array(X, dtype=float, order="C")  # a copy: the caller may go on with his own
+    except (TypeError, ValueError) as error:
+        raise SignkinError(
+            f"the data are not an array of numbers ({error})",
+            file=name,
+            expected="(bins, dimensions)",
+        ) from None
+    if x.ndim == 1:
+        x = x[:, np.newaxis]
     if x.ndim != 2 or x.shape[0] < least_bins or x.shape[1] < 1:
         raise SignkinError(
             f"the data have shape {np.shape(X)}",
@@ -296,7 +325,7 @@ def _checked(
             place=f"bin {int(np.argmax(bad))}",
             expected="finite values; fill or cut out gaps first",
         )
-    wanted = tuple(int(order) for order in orders)
+    wanted = tuple(int(order) if order == int(order) else -1 for order in orders)
     if (
         not wanted
         or min(wanted) < 0

@@ -58,7 +58,7 @@ class Prior:
     def degrees(self, dimensions: int) -> float:
         """Return the degrees of freedom for data of so many dimensions."""
         degrees = float(dimensions if self.dof is None else self.dof)
-        if not degrees > dimensions - 1:
+        if not (np.isfinite(degrees) and degrees > dimensions - 1):
             raise _error("dof", self.dof, f"more than {dimensions - 1} for {dimensions} dimensions")
         return degrees
 

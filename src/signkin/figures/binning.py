@@ -83,12 +83,14 @@ def plot_orders(
 
 
 def plot_hit_rates(
-    points: pd.DataFrame, *, ax: Axes, right: float | None = None, legend: bool = True
-) -> Axes:
+    points: pd.DataFrame, *, ax: Axes, right: float | None = None, legend: bool = True,
+    by: str = "order",
+) -> Axes:  # fmt: skip
     """Draw hit rate against false positives a second, one mark an order (Fig. 3C, 5, A1).
 
     The series `chance` is the line of no discrimination, `chance low` and `chance high` its
-    95 % band, `closed form` the Poisson formula. Each mark is labelled with its order.
+    95 % band, `closed form` the Poisson formula. by: marks are coloured by `order`, which is
+    written beside them, or by `series`.
     """
     chance = {str(n): r for n, r in points.groupby("series") if str(n).startswith(("chance", "cl"))}
     if CHANCE in chance:
@@ -103,16 +105,20 @@ def plot_hit_rates(
     marks = points[~points["series"].isin(list(chance))]
     cmap = mpl.colormaps["cividis"]
     for i, (name, rows) in enumerate(marks.groupby("series", sort=False)):
-        orders = rows["label"].astype(float).to_numpy()
-        span = max(float(orders.max()), 1.0)
-        for (_, row), order in zip(rows.iterrows(), orders, strict=True):
+        if by == "order":
+            orders = rows["label"].astype(float).to_numpy()
+            colours = [cmap(order / max(float(orders.max()), 1.0)) for order in orders]
+        else:
+            colours = [SERIES_COLOURS[i % len(SERIES_COLOURS)]] * len(rows)
+        for row, colour in zip(rows.itertuples(), colours, strict=True):
             ax.errorbar(
-                row["x"], row["y"], xerr=_error(row["x_error"]), yerr=_error(row["y_error"]),
-                marker=MARKERS[i], ms=5.5, color=cmap(order / span), mec="0.2", mew=0.4, lw=0.9,
-                zorder=3 + i,
+                row.x, row.y, xerr=_error(row.x_error), yerr=_error(row.y_error),
+                marker=MARKERS[i], ms=5.5, color=colour, mec="0.2", mew=0.4, lw=0.9, zorder=3 + i,
             )  # fmt: skip
-        ax.plot([], [], marker=MARKERS[i], ls="none", color="0.4", ms=5, label=str(name))
-        _write_orders(rows, ax)
+        shown = "0.4" if by == "order" else colours[0]
+        ax.plot([], [], marker=MARKERS[i], ls="none", color=shown, ms=5, label=str(name))
+        if by == "order":
+            _write_orders(rows, ax)
     if right is None:
         right = float(np.nanmax([1.0, *(marks["x"] + marks["x_error"].fillna(0))])) * 1.12
     ax.set(xlim=(-0.03 * right, right), ylim=(-0.03, 1.06))

@@ -159,6 +159,8 @@ def _in_words(
     found = [f for f in tests if f.p < alpha]
     same, excluded = _equivalence(question, findings, alpha, bound)
     smallest = _smallest(findings)
+    others = _others(findings, bool(found), alpha)
+    none = "No difference was found" if not others else "The deciding test finds no difference"
     if found:
         told = "; ".join(
             f"{f.comparison}: {f.test} F({f.df1:g}, {f.df2:.4g}) = {f.statistic:.2f}, "
@@ -166,17 +168,18 @@ def _in_words(
             f"{f.effect_high:.3f})"
             for f in found
         )
-        text = f"Durations differ. {told}."
+        start = "The deciding test finds a difference" if others else "Durations differ"
+        text = f"{start}. {told}."
         if same:
             text += f" The difference is small: {excluded}."
     elif same:
-        text = f"No difference was found, and {excluded}."
+        text = f"{none}, and {excluded}."
     else:
         text = (
-            "No difference was found, which is no evidence that there is none: equivalence within "
+            f"{none}, which is no evidence that there is none: equivalence within "
             f"± {bound:g} s was not shown either. {smallest}"
         )
-    text += _others(findings, bool(found), alpha)
+    text += others
     checks = next((f.assumptions for f in findings if f.assumptions), "")
     sources = rows["type_source"].value_counts()
     if sources.get("kinematic", 0):
@@ -192,7 +195,7 @@ def _others(findings: list[Finding], found: bool, alpha: float) -> str:
     names = ("one-way ANOVA", "Kruskal-Wallis", mixed.TEST)
     against = {f.test: f.p for f in findings if f.test in names and (f.p < alpha) != found}
     told = [f"{test} {p_text(p)}" for test, p in against.items() if np.isfinite(p)]
-    return f" Not all tests agree: {', '.join(told)}." if told else ""
+    return f" Others say otherwise: {', '.join(told)}." if told else ""
 
 
 def _decides(question: str, finding: Finding) -> bool:

@@ -82,12 +82,13 @@ def fig01(points: pd.DataFrame, segments: pd.DataFrame, unit: str) -> Drawn:
         axes[name].set_title(title, loc="left")
     recording = str(points["recording"].iloc[0])
     betas = ", ".join(f"{beta:.2f}" for beta, _ in laws.values())
+    least = min(r2 for _, r2 in laws.values())
     caption = (
         f"Recording {recording} before (a, b) and after (c, d, e) time warping, in the plane of "
         f"its two widest axes. Laws fitted again to the {len(after)} warped samples: β = {betas}; "
-        f"R² from {min(r for _, r in laws.values()):.3f}. Path and places of the segments stay, "
-        "speed along it changes. Curvatures of straight parts are drawn at the least curvature "
-        "that counts (powerlaw.straight_turn_rad). Black lines in e: the laws."
+        f"R² from {least:.3f} (draws below powerlaw.least_r_squared are rejected, so a high R² "
+        "says nothing about people). The path stays, the speed along it changes. Black lines in "
+        "e: the laws."
     )
     return Drawn(figure, points, caption)
 

@@ -14,6 +14,7 @@ import yaml
 import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
+from signkin.pipeline import endres_report
 from signkin.pipeline.audit_report import audit_section
 from signkin.pipeline.corpora_report import design, first_rows, origin, sign_columns, titled
 from signkin.pipeline.durations_report import duration_views
@@ -29,13 +30,14 @@ class Sources:
     """Where a report's parts lie.
 
     results: the results folder. corpora: those of this run. missing: corpus -> reason.
-    paper: the folder papers/naert2017. config: config.yaml.
+    paper, endres: the folders papers/naert2017 and papers/endres2013. config: config.yaml.
     """
 
     results: Path
     corpora: Mapping[str, Corpus]
     missing: Mapping[str, str]
     paper: Path
+    endres: Path
     config: Mapping[str, Any]
 
     @property
@@ -68,14 +70,17 @@ def make_page(sources: Sources) -> Page:
     for name, corpus in sources.corpora.items():
         if corpus.tagged:
             sections.append(_corpus_section(sources, name, labels))
+    sections += endres_report.sections(
+        sources.results, sources.endres, sources.corpora, sources.config
+    )
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
     return Page(
-        title="Sign-language motion: tables and figures of Naert, Larboulette & Gibet 2017",
+        title="Sign-language motion: transitions between signs, and motor primitives in them",
         lead=(
-            "The paper's analyses, run on every corpus of this run. Its own recordings (Sign3D) "
-            "are not public: its printed numbers stand beside ours, and no corpus here is the "
-            "paper's.",
+            "The tables and figures of Naert, Larboulette & Gibet 2017 and of Endres, Meirovitch, "
+            "Flash & Giese 2013, from the corpora of this run. The papers' own recordings are not "
+            "public: their printed numbers stand beside ours, and no corpus here is theirs.",
         ),
         sections=sections,
         version=signkin.__version__,

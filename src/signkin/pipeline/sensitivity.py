@@ -184,6 +184,9 @@ def draw(frame: pd.DataFrame) -> Figure:
             points, column, ax=ax, groups=groups, colour="dof", marker="concentration",
             paper=paper,
         )  # fmt: skip
+        if column.startswith("mean_count"):
+            ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
+            ax.set_yticks([0, 5, 10, 50, 100], ["0", "5", "10", "50", "100"])
         ax.set_ylabel(label, fontsize=7.5)
         ax.tick_params(axis="x", labelsize=7)
     figure.legend(

@@ -1,0 +1,363 @@
+"""What the report shows of Bayesian binning (Endres et al. 2013)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import yaml
+
+from signkin.corpus import Corpus
+from signkin.report.page import FigureView, Section, TableView
+from signkin.tables import read_table
+
+ALL = "all"
+P3 = ".3f"
+SIMULATED = " Simulated: a test of the method, no evidence about people."
+
+
+def exhibits(paper: Path) -> dict[str, dict[str, str]]:
+    """Return the entries of exhibits.yaml by id. paper: the folder papers/endres2013."""
+    text = (paper / "exhibits.yaml").read_text(encoding="utf-8")
+    return {entry["id"]: entry for entry in yaml.safe_load(text)["exhibits"]}
+
+
+def sections(
+    results: Path, paper: Path, corpora: Mapping[str, Corpus], config: Mapping[str, Any]
+) -> Iterator[Section]:
+    """Yield the sections of all corpora: the model, single signs, then continuous recordings."""
+    labels = exhibits(paper)
+    folder = results / "endres2013"
+    yield _model(folder, labels["fig02"])
+    for name, corpus in corpora.items():
+        if corpus.single_signs:
+            yield _single_signs(folder / name, name, corpus, labels, config)
+    for name, corpus in corpora.items():
+        if not corpus.single_signs:
+            yield _continuous(folder / name, name, corpus)
+
+
+def _files(base: Path, *suffixes: str) -> list[Path]:
+    return [base.with_suffix(suffix) for suffix in suffixes or (".svg", ".pdf", ".csv")]
+
+
+def _badge(corpus: Corpus) -> str:
+    return "simulated" if corpus.simulator else "real"
+
+
+def _model(folder: Path, exhibit: Mapping[str, str]) -> Section:
+    view = FigureView(
+        label=exhibit["label"],
+        title=exhibit["title"],
+        caption="A trajectory of T bins is cut into M + 1 segments by M inner boundaries; the mean "
+        "of segment m is a polynomial of order S in the time since its start, its noise has a "
+        "full covariance. Sums over all segmentations are exact.",
+        svg=folder / "fig02.svg",
+        files=_files(folder / "fig02"),
+        differs=exhibit["differs"],
+    )
+    return Section(
+        "binning",
+        "Bayesian binning (Endres, Meirovitch, Flash & Giese 2013)",
+        text=[
+            "The paper's analyses of single signs, run on every corpus of single signs. Its own "
+            "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of "
+            "the prior decides its results: each corpus has a figure of how far."
+        ],
+        exhibits=(view,),
+    )
+
+
+def _single_signs(
+    folder: Path, name: str, corpus: Corpus, labels: Mapping[str, Any], config: Mapping[str, Any]
+) -> Section:
+    captions = json.loads((folder / "captions.json").read_text(encoding="utf-8"))
+    views: list[TableView | FigureView] = [_printed_and_found(folder)]
+    for identity, exhibit in labels.items():
+        if identity not in captions:
+            continue
+        base = folder / identity
+        views.append(
+            FigureView(
+                label=exhibit["label"],
+                title=exhibit["title"],
+                caption=captions[identity] + (SIMULATED if corpus.simulator else ""),
+                svg=base.with_suffix(".svg"),
+                files=_files(base),
+                differs=exhibit["differs"],
+            )
+        )
+        if identity == "fig06":
+            views += [_rates(folder, config), _tests(folder)]
+    views.append(
+        FigureView(
+            label="",
+            title="What the paper does not print decides its results",
+            caption=(folder / "sensitivity.txt").read_text(encoding="utf-8").strip(),
+            svg=folder / "fig_sensitivity.svg",
+            files=[*_files(folder / "fig_sensitivity", ".svg", ".pdf"), folder / "sensitivity.csv"],
+        )
+    )
+    views += _left_out(folder / "left_out.csv")
+    views += _rejected(folder)
+    return Section(
+        anchor=f"{name}-binning",
+        title=f"{name}: Bayesian binning",
+        text=[str(corpus.settings["title"]) + "."],
+        badge=_badge(corpus),
+        exhibits=views,
+    )
+
+
+# --- tables ----------------------------------------------------------------------------------
+
+
+def _of(table: pd.DataFrame, dataset: str, true_order: int | None = None) -> pd.DataFrame:
+    here = (table["dataset"] == dataset) & (table["signer"] == ALL) & (table["sign"] == ALL)
+    if true_order is not None:
+        here &= table["true_order"] == true_order
+    return table[here].set_index("order")
+
+
+def _printed_and_found(folder: Path) -> TableView:
+    orders = read_table(folder / "order_posteriors.csv", "order_posteriors")
+    rates = read_table(folder / "hit_rates.csv", "hit_rates")
+    rows = list(_comparisons(orders, rates))
+    return TableView(
+        label="",
+        title="Printed, and found here",
+        caption="Means over trajectories; order posteriors of the corpus, with the prior of "
+        "config.yaml. The paper's recordings are others.",
+        frame=pd.DataFrame(rows, columns=["what", "where", "printed", "found"]),
+        columns={
+            "what": ("what", ""),
+            "where": ("where", ""),
+            "printed": ("paper", ""),
+            "found": ("here", ""),
+        },
+        file=folder / "order_posteriors.csv",
+    )
+
+
+def _comparisons(orders: pd.DataFrame, rates: pd.DataFrame) -> Iterator[tuple[str, str, str, str]]:
+    recorded = _of(orders, "recorded")
+    peak = int(recorded["mean_probability"].idxmax())
+    share = recorded["mean_probability"].reindex([3, 4, 5]).sum()
+    yield "order posterior of recorded trajectories, peak", "Fig. 7", "4", str(peak)
+    yield "P(3 ≤ S ≤ 5), recorded", "3.3", "> 0.95", f"{share:.3f}"
+    counts = recorded["mean_count"]
+    for order, printed in ((0, "13"), (3, "7 (one example)"), (7, "2")):
+        if order in counts.index:
+            yield (
+                f"mean number of boundaries, order {order}",
+                "3.1",
+                printed,
+                f"{counts[order]:.1f}",
+            )
+    variance = recorded["mean_explained_variance"]
+    for order, printed in ((0, "> 0.95"), (3, "> 0.99")):
+        if order in variance.index:
+            found = f"{variance[order]:.4f}"
+            yield f"explained variance, order {order}", "Fig. 3D", printed, found
+    truth = _of(orders, "powerlaw")
+    if len(truth):
+        best = int(truth["mean_probability"].idxmax())
+        yield "order posterior of power-law ground truth, peak", "Fig. 6", "3", str(best)
+        ratio = _of(rates, "powerlaw")["hpfpps"].dropna()
+        if len(ratio):
+            where = str(int(ratio.idxmax()))
+            yield "hits for each false positive a second, peak", "Fig. 6", "3", where
+    for dataset, told in (("fitted", "averaged"), ("fitted_map", "most probable segmentation")):
+        found = _of(orders, dataset, 3)
+        hits = _of(rates, dataset, 3)
+        if 3 in found.index:
+            probability = found.loc[3, "mean_probability"]
+            yield (
+                f"P(S = 3), fitted with order 3, {told}",
+                "Fig. 3B",
+                "near 1",
+                f"{probability:.3f}",
+            )
+            yield (
+                f"hit rate and false positives a second, the same, {told}",
+                "Fig. 3C",
+                "near 1, almost none",
+                f"{hits.loc[3, 'hit_rate']:.3f}, {hits.loc[3, 'false_positives_per_s']:.3f}",
+            )
+
+
+def _rates(folder: Path, config: Mapping[str, Any]) -> TableView:
+    path = folder / "hit_rates.csv"
+    frame = read_table(path, "hit_rates")
+    here = (frame["dataset"] == "powerlaw") & (frame["signer"] == ALL)
+    return TableView(
+        label="",
+        title="Hit rates on power-law ground truth",
+        caption=f"Window ±{config['binning']['window_s']:g} s, one to one. Chance: Poisson events "
+        "with as many false positives; an order is informative where its hit rate is above the "
+        "97.5 %.",
+        frame=frame[here],
+        columns={
+            "order": ("order", "d"),
+            "hit_rate": ("hit rate", P3),
+            "hit_rate_se": ("± SE", P3),
+            "false_positives_per_s": ("false pos. a second", P3),
+            "false_positives_per_s_se": ("± SE", P3),
+            "chance_hit_rate": ("chance", P3),
+            "chance_high": ("97.5 %", P3),
+            "hpfpps": ("eq. 17 (s)", P3),
+            "hpfpps_low": ("2.5 %", P3),
+            "hpfpps_high": ("97.5 %", P3),
+            "n": ("n", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+    )
+
+
+def _tests(folder: Path) -> TableView:
+    path = folder / "order_tests.csv"
+    return TableView(
+        label="",
+        title="Do orders differ in eq. 17?",
+        caption="By ranks of trajectories; hits without a false positive are a tied top rank, "
+        "neither hit nor false positive is left out and counted. Kruskal-Wallis takes as "
+        "independent what is not: the same trajectories stand in every order's group.",
+        frame=read_table(path, "order_tests"),
+        columns={
+            "question": ("question", ""),
+            "test": ("test", ""),
+            "statistic": ("statistic", ".2f"),
+            "df": ("df", "d"),
+            "p": ("p", ".2g"),
+            "n": ("n", "d"),
+            "left_out": ("left out", "d"),
+            "without_truth": ("without truth", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+    )
+
+
+def _left_out(path: Path) -> Iterator[TableView]:
+    frame = read_table(path, "binning_left_out")
+    if frame.empty:
+        return
+    # One sentence for each kind of reason: what is a recording's own is taken out.
+    kinds = frame["reason"].str.replace(r"recording \S+:? ?", "", regex=True)
+    kinds = kinds.str.replace(r"\d+(\.\d+)?", "#", regex=True)
+    counted = frame.groupby(["dataset", kinds], sort=True).agg(
+        n=("recording", "size"), example=("recording", "first"), reason_of=("reason", "first")
+    )
+    yield TableView(
+        label="",
+        title="Left out",
+        caption=f"{len(frame)} trajectories, by reason; the file lists each.",
+        frame=counted.reset_index(level=0),
+        columns={
+            "dataset": ("data", ""),
+            "n": ("trajectories", "d"),
+            "reason_of": ("reason, of the first", ""),
+            "example": ("first recording", ""),
+        },
+        file=path,
+    )
+
+
+def _rejected(folder: Path) -> Iterator[TableView]:
+    path = folder / "rejected_draws.csv"
+    frame = read_table(path, "rejected_draws")
+    if frame.empty:
+        return
+    draws = int(frame.drop_duplicates("recording")["draws"].sum())
+    counted = frame.groupby("reason", sort=False).agg(
+        rejected=("rejected", "sum"), recordings=("recording", "nunique")
+    )
+    yield TableView(
+        label="",
+        title="Rejected draws of ground truth",
+        caption=f"Of {draws} draws of boundaries and exponents (section 2.4).",
+        frame=counted.sort_values("rejected", ascending=False).reset_index(),
+        columns={
+            "reason": ("reason", ""),
+            "rejected": ("draws rejected", "d"),
+            "recordings": ("recordings", "d"),
+        },
+        file=path,
+    )
+
+
+# --- continuous recordings -------------------------------------------------------------------
+
+
+def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
+    path = folder / "one_wrist.csv"
+    compared = TableView(
+        label="",
+        title="Boundaries, minima and tags of one hand",
+        caption="Hit rates within the window, one to one, mean over recordings; chance: as many "
+        "Poisson events over the whole recording, 95 % of the sets.",
+        frame=read_table(path, "one_wrist"),
+        columns={
+            "hand": ("hand", ""),
+            "found": ("found", ""),
+            "truth": ("held against", ""),
+            "hit_rate": ("hit rate", P3),
+            "chance_hit_rate": ("chance", P3),
+            "chance_low": ("2.5 %", P3),
+            "chance_high": ("97.5 %", P3),
+            "false_positives_per_s": ("no hit, a second", P3),
+            "n_found": ("found", "d"),
+            "n_truth": ("of", "d"),
+            "recordings": ("recordings", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+    )
+    figure = FigureView(
+        label="",
+        title="Two papers, one wrist",
+        caption=(folder / "one_wrist.txt").read_text(encoding="utf-8").strip()
+        + (SIMULATED if corpus.simulator else ""),
+        svg=folder / "fig_one_wrist.svg",
+        files=_files(folder / "fig_one_wrist"),
+    )
+    views: list[TableView | FigureView] = [figure, compared, _wrists(folder)]
+    views += _left_out(folder / "wrists_left_out.csv")
+    text: Sequence[str] = [
+        "The wrists of continuous recordings, binned as long series: do the segments of one paper "
+        "start and end where the other puts its minima and tags?"
+    ]
+    return Section(
+        anchor=f"{name}-one-wrist",
+        title=f"{name}: two papers, one wrist",
+        text=text,
+        badge=_badge(corpus),
+        exhibits=views,
+    )
+
+
+def _wrists(folder: Path) -> TableView:
+    path = folder / "wrist_posteriors.csv"
+    return TableView(
+        label="",
+        title="Wrists as long series",
+        caption="Cut mass bounds the share of P(M | data) outside of the counts worked out.",
+        frame=read_table(path, "wrist_posteriors"),
+        columns={
+            "recording": ("recording", ""),
+            "hand": ("hand", ""),
+            "n_bins": ("bins", "d"),
+            "bin_s": ("bin (s)", ".4f"),
+            "order": ("order", "d"),
+            "map_count": ("boundaries", "d"),
+            "boundaries_per_s": ("a second", ".2f"),
+            "explained_variance": ("explained variance", ".4f"),
+            "cut_mass": ("cut mass", ".1g"),
+        },
+        file=path,
+        most=8,
+    )
