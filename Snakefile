@@ -17,6 +17,7 @@ include: "workflow/rules/coarticulation.smk"
 include: "workflow/rules/synthesis.smk"
 include: "workflow/rules/binning.smk"
 include: "workflow/rules/durations.smk"
+include: "workflow/rules/audit.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -29,3 +30,4 @@ rule all:
         rules.syntheses.input,
         rules.endres2013.input,
         rules.naert2017_durations.input,
+        rules.audit.input,

@@ -712,6 +712,100 @@ TABLES: dict[str, Table] = {
 }
 
 
+# --- the audit -------------------------------------------------------------------------------
+
+_CLAIM = (
+    _text("paper", "folder of the paper below papers/"),
+    _text("id", "claim, as papers/<paper>/claims.yaml names it"),
+    _text("location", "section, table or figure of the paper"),
+    _text("evidence", "published numbers, or a corpus"),
+    _text("evidence_kind", "published numbers, simulated (a test of the method) or real"),
+)
+for _table in (
+    Table(
+        "claims",
+        "results/audit/claims.csv",
+        "a claim of a paper on one piece of evidence",
+        (
+            *_CLAIM,
+            _text("claim", "what is claimed, in our words"),
+            _text("printed", "the numbers as printed"),
+            _text("recomputed", "the numbers recomputed"),
+            _text("interval", "what rounding allows them to be; on a corpus, 95 % by bootstrap"),
+            _text(
+                "verdict",
+                "consistent or inconsistent (published numbers), holds or fails (corpora), or "
+                "not testable",
+            ),
+            _text("note", "why, or what is missing"),
+            _text("source", "tables behind it"),
+        ),
+    ),
+    Table(
+        "checks",
+        "results/audit/checks.csv",
+        "a finding of a check",
+        (
+            *_CLAIM,
+            _text("check", "check, as the claim names it"),
+            _text("item", "row of the printed table that the finding is about"),
+            _text("reads", "how the claim is read"),
+            _text("printed", "as printed"),
+            _text("recomputed", "recomputed"),
+            _text("interval", "what rounding allows; on a corpus, 95 % by bootstrap"),
+            _text("verdict", "consistent, inconsistent, undecidable; holds, fails; not testable"),
+            _text("why", "one sentence"),
+            _text("source", "table behind it"),
+        ),
+    ),
+    Table(
+        "multiverse",
+        "results/naert2017/<corpus>/multiverse.csv",
+        "a claim under one specification: a combination of choices that the paper leaves open",
+        (
+            _text("corpus", "corpus"),
+            _text("claim", "claim of Naert et al. 2017"),
+            _text("segmentation", "manual or refined tags"),
+            _text("hand", "right, left or both"),
+            Column("cutoff_hz", "Hz", "low-pass, half gain; empty where it plays no part"),
+            Column("prominence", "", "least depth of a minimum; empty where it plays no part"),
+            Column("window_s", "s", "refinement window; empty where it plays no part"),
+            _text("outliers", "kept or left out; empty where it plays no part"),
+            _text("statistic", "what the estimate is"),
+            Column("estimate", "see statistic", "the number the claim is about"),
+            Column("bound", "see statistic", "what it is set against"),
+            Column("holds", "", "whether the claim holds so"),
+            Column("n", "", "transitions or tags"),
+            _NOTE,
+        ),
+    ),
+    Table(
+        "specifications",
+        "results/audit/<claim>_specifications.csv",
+        "a level of a choice in the specification curve of a claim, or `all`",
+        (
+            _text("paper", "folder of the paper below papers/"),
+            _text("claim", "claim"),
+            _text("corpus", "corpus"),
+            _text("choice", "choice that the paper leaves open, or all"),
+            _text("level", "its value"),
+            Column("specifications", "", "combinations of choices with this level"),
+            Column("holding", "", "of these, where the claim holds"),
+            Column("share", "", "holding over specifications"),
+            Column("median_estimate", "see the curve", "median of the estimates"),
+            Column(
+                "share_decided",
+                "",
+                "share of the variance of holds (yes 1, no 0) that lies between the levels of "
+                "this choice; the largest decides",
+            ),
+            _NOTE,
+        ),
+    ),
+):
+    TABLES[_table.name] = _table
+
+
 _NOT_YET = ("geodesic_norm", "euclidean_norm", "mean_distance", "note")
 TABLES["raw_transitions"] = Table(
     "raw_transitions",

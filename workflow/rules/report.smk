@@ -26,6 +26,7 @@ rule report:
         rules.naert2017.input,
         rules.endres2013.input,
         rules.naert2017_durations.input,
+        rules.audit.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         synthesis=rules.syntheses.input,

@@ -128,6 +128,17 @@ class Plan:
         names = ("corpus.yaml", "recordings.csv", "signs.csv")
         return [str(folder / name) for name in names if (folder / name).is_file()]
 
+    @property
+    def claimed(self) -> list[Path]:
+        """Folders of papers with a ledger of claims."""
+        return sorted(file.parent for file in self.papers.glob("*/claims.yaml"))
+
+    def claim_files(self) -> list[str]:
+        """Return the claims and printed tables of those papers."""
+        files = (f for folder in self.claimed for p in ("claims.yaml", "*.csv")
+                 for f in sorted(folder.glob(p)))  # fmt: skip
+        return [str(file) for file in files]
+
     def digest(self, script: str) -> str:
         """Return the digest of a workflow script and the library behind it."""
         return code_digest(self.root / "workflow" / "scripts" / script)

@@ -15,6 +15,7 @@ import signkin
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.pipeline import endres_report, synthesis_report
+from signkin.pipeline.audit_report import audit_section
 from signkin.pipeline.corpora_report import design, first_rows, origin, sign_columns, titled
 from signkin.pipeline.durations_report import duration_views
 from signkin.report.page import FigureView, Page, Section, TableView
@@ -65,7 +66,7 @@ def make_page(sources: Sources) -> Page:
     text = (sources.paper / "exhibits.yaml").read_text(encoding="utf-8")
     exhibits = yaml.safe_load(text)["exhibits"]
     labels = {exhibit["id"]: exhibit for exhibit in exhibits}
-    sections = [_summary(sources), _overview(sources, labels)]
+    sections = [_summary(sources), _overview(sources, labels), audit_section(sources.results)]
     for name, corpus in sources.corpora.items():
         if corpus.tagged:
             sections.append(_corpus_section(sources, name, labels))

@@ -17,12 +17,15 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+WORDS = ("verdict", "link")  # formats of columns that hold text
+
 
 @dataclass(frozen=True)
 class TableView:
     """A table as it is shown: what is above it, the columns shown, the file with all of it.
 
-    columns: column -> (heading, format); the format is empty for text, else as in `format()`.
+    columns: column -> (heading, format); the format is empty for text, `verdict` for a verdict,
+    `link` for files relative to the page, else as in `format()`.
     most: rows shown before the rest is folded away; the file has all.
     """
 
@@ -59,6 +62,7 @@ class Section:
     badge: str = ""  # `simulated`, `real` or nothing
     exhibits: Sequence[TableView | FigureView] = ()
     notices: Sequence[str] = ()
+    links: Sequence[tuple[str, Path]] = ()
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,7 @@ def render(page: Page, home: Path) -> str:
     environment.filters["link"] = lambda path: Path(os.path.relpath(path, home)).as_posix()
     environment.filters["suffix"] = lambda path: Path(path).suffix.lstrip(".").upper()
     environment.tests["figure"] = lambda view: isinstance(view, FigureView)
+    environment.tests["numeric"] = lambda form: bool(form) and form not in WORDS
     environment.globals["cell"] = cell
     environment.globals["rows_of"] = rows_of
     return environment.get_template("page.html.j2").render(page=page)
@@ -105,7 +110,7 @@ def cell(value: object, form: str) -> str:
     """Return a value as it is printed; what is missing is a dash."""
     if value is None or (isinstance(value, float) and pd.isna(value)) or value == "":
         return "–"
-    if not form or isinstance(value, str):
+    if not form or form in WORDS or isinstance(value, str):
         return str(value)
     # A column of counts with gaps comes as floats.
     return format(int(value) if form == "d" else value, form)  # type: ignore[call-overload]

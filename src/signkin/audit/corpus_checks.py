@@ -1,0 +1,369 @@
+"""Checks on the result tables of a corpus. Each returns findings; claims.yaml names them.
+
+A check takes rows of one table (`where`), numbers from their columns by small expressions, and
+a condition. What a corpus has no table for is Missing, which the ledger tells as not testable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy import stats
+
+from signkin import seeds
+from signkin.audit.expressions import evaluate
+from signkin.audit.findings import FAILS, HOLDS, UNDECIDABLE, Finding
+from signkin.audit.published import ordered_pairs
+from signkin.audit.registry import Missing, OnCorpus, on_corpus
+from signkin.audit.rounding import allowed, shown
+from signkin.errors import SignkinError, listed
+
+DRAWS = 1000  # of the bootstrap
+LEVEL = 0.95
+LEAST = 3  # values that an estimate is made from
+TAKES: dict[str, Any] = {
+    "mean": np.mean,
+    "median": np.median,
+    "sd": lambda x, axis=None: np.std(x, ddof=1, axis=axis),
+    "min": np.min,
+    "max": np.max,
+    "sum": np.sum,
+    "count": lambda x, axis=None: np.size(x) if axis is None else np.shape(x)[axis],
+}
+CONDITIONS = ("above", "below", "at_least", "at_most")
+
+
+def _env(frame: pd.DataFrame) -> dict[str, Any]:
+    return {str(column): frame[column] for column in frame.columns}
+
+
+def _rows(context: OnCorpus, table: str, where: str) -> pd.DataFrame:
+    frame = context.table(table)
+    if where:
+        try:
+            frame = frame[evaluate(where, _env(frame))]
+        except SignkinError as error:
+            raise _about(context, table, error) from None
+    if frame.empty:
+        raise Missing(f"{table}.csv has no row with {where}")
+    return frame
+
+
+def _about(context: OnCorpus, table: str, error: SignkinError) -> Exception:
+    if "is unknown" in error.found:
+        return Missing(f"{table}.csv lacks a column: {error.found}")
+    return error
+
+
+def _numbers(context: OnCorpus, table: str, frame: pd.DataFrame, value: str) -> pd.Series:
+    try:
+        found = evaluate(value, _env(frame))
+    except SignkinError as error:
+        raise _about(context, table, error) from None
+    return found if isinstance(found, pd.Series) else pd.Series(found, index=frame.index)
+
+
+@on_corpus
+def measure(
+    context: OnCorpus,
+    table: str,
+    value: str,
+    take: str = "mean",
+    where: str = "",
+    above: str | float | None = None,
+    below: str | float | None = None,
+    at_least: str | float | None = None,
+    at_most: str | float | None = None,
+    contains: str | None = None,
+    equals: str | None = None,
+) -> list[Finding]:
+    """A number taken from a table keeps a bound, or agrees with a printed one.
+
+    take: mean, median, sd, min, max, sum, count, share or number (of rows where `value` is
+    true), or distinct (number of different values). above, below, at_least, at_most: the number
+    itself keeps the bound. contains: the 95 % bootstrap interval of the number (values taken as
+    independent) holds the printed one. equals: the very number.
+    """
+    frame = _rows(context, table, where)
+    values = _numbers(context, table, frame, value)
+    source = context.source(table)
+    if take == "distinct":
+        found, interval = float(values.nunique()), ""
+    elif take == "number":
+        found, interval = float(values.astype(bool).sum()), ""
+    else:
+        data = values.dropna().to_numpy(dtype=float)
+        wanted = TAKES.get("mean" if take == "share" else take)
+        if wanted is None:
+            raise SignkinError(
+                f"take: {take}", expected=listed([*TAKES, "share", "number", "distinct"])
+            )
+        if len(data) < (LEAST if take in ("mean", "sd", "median", "share") else 1):
+            raise Missing(f"{len(data)} values in {table}.csv")
+        found = float(wanted(data))
+        interval = ""
+        if take in ("mean", "sd", "median", "share"):
+            low, high = _bootstrap(data, wanted, context, value)
+            interval = f"{shown(low, 4)} to {shown(high, 4)}"
+    told = f"{shown(found, 4)}"
+    bounds = {"above": above, "below": below, "at_least": at_least, "at_most": at_most}
+    bounds = {name: bound for name, bound in bounds.items() if bound is not None}
+    if not bounds and contains is None and equals is None:
+        raise SignkinError("the check measure has no condition", expected=listed(
+            [*CONDITIONS, "contains", "equals"]))  # fmt: skip
+    holds, parts = True, []
+    for name, bound in bounds.items():
+        limit = context.number(bound)
+        keeps = {
+            "above": found > limit,
+            "below": found < limit,
+            "at_least": found >= limit - 1e-9,
+            "at_most": found <= limit + 1e-9,
+        }
+        holds &= keeps[name]
+        parts.append(f"is {name.replace('_', ' ')} {limit:g}")
+    if contains is not None:
+        text = context.text(contains)
+        values_allowed = allowed(text)
+        holds &= low <= float(values_allowed.high) and float(values_allowed.low) <= high
+        parts.append(f"has {text} in its 95 % interval, {interval}")
+    if equals is not None:
+        text = context.text(equals)
+        holds &= found == context.number(equals)
+        parts.append(f"is {text}")
+    rows = f"n = {len(frame)}"
+    negated = [part.replace("is ", "is not ", 1).replace("has ", "has not ", 1) for part in parts]
+    word = " and ".join(parts) if holds else " or ".join(negated)
+    why = f"{take} of {value}: {told} ({rows}), which {word}"
+    return [Finding(HOLDS if holds else FAILS, why, recomputed=told, interval=interval,
+                    source=source)]  # fmt: skip
+
+
+def _bootstrap(
+    data: NDArray[np.float64], function: Any, context: OnCorpus, value: str
+) -> tuple[float, float]:
+    rng = seeds.stream(0, "audit", context.evidence.name, context.claim.id, value)
+    drawn = np.concatenate(
+        [
+            function(data[rng.integers(0, len(data), (size, len(data)))], axis=1)
+            for size in _pieces(DRAWS, len(data))
+        ]
+    )
+    low, high = np.quantile(drawn, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return float(low), float(high)
+
+
+def _pieces(draws: int, n: int) -> list[int]:
+    most = max(1, 2_000_000 // max(n, 1))
+    return [min(most, draws - start) for start in range(0, draws, most)]
+
+
+@on_corpus
+def correlation(
+    context: OnCorpus,
+    table: str,
+    x: str,
+    y: str,
+    where: str = "",
+    method: str = "pearson",
+    sign: str = "positive",
+) -> list[Finding]:
+    """Two columns go together: the 95 % bootstrap interval of r lies on one side of zero."""
+    frame = _rows(context, table, where)
+    pairs = pd.DataFrame(
+        {"x": _numbers(context, table, frame, x), "y": _numbers(context, table, frame, y)}
+    ).dropna()
+    data = pairs.to_numpy(dtype=float)
+    if len(data) < 2 * LEAST or not np.ptp(data, axis=0).all():
+        raise Missing(f"{len(data)} pairs in {table}.csv, or no spread")
+    if method == "spearman":
+        data = np.column_stack([stats.rankdata(data[:, 0]), stats.rankdata(data[:, 1])])
+    elif method != "pearson":
+        raise SignkinError(f"method: {method}", expected="pearson or spearman")
+    r = float(np.corrcoef(data.T)[0, 1])
+    rng = seeds.stream(0, "audit", context.evidence.name, context.claim.id, x, y)
+    drawn = []
+    for size in _pieces(DRAWS, len(data)):
+        at = rng.integers(0, len(data), (size, len(data)))
+        a, b = data[at, 0], data[at, 1]
+        a, b = a - a.mean(axis=1, keepdims=True), b - b.mean(axis=1, keepdims=True)
+        spread = np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
+        drawn.append(np.where(spread > 0, (a * b).sum(axis=1) / np.where(spread > 0, spread, 1), 0))
+    low, high = np.quantile(np.concatenate(drawn), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    holds = low > 0 if sign == "positive" else high < 0
+    why = f"{method} r of {x} and {y} is {r:.3f} ({low:.3f} to {high:.3f}), n = {len(data)}"
+    return [Finding(HOLDS if holds else FAILS, why, recomputed=f"r = {r:.3f}",
+                    interval=f"{low:.3f} to {high:.3f}", source=context.source(table))]  # fmt: skip
+
+
+@on_corpus
+def groups_differ(
+    context: OnCorpus,
+    table: str,
+    value: str,
+    by: str,
+    differ: bool,
+    where: str = "",
+    test: str = "anova",
+    alpha: str | float = 0.05,
+    least: int = 2,
+) -> list[Finding]:
+    """A column differs between groups (`differ: true`), or not significantly (`false`).
+
+    test: anova or kruskal. Groups of fewer than `least` values are left out and counted.
+    """
+    frame = _rows(context, table, where)
+    values = _numbers(context, table, frame, value)
+    keys = _numbers(context, table, frame, by)
+    there = values.notna() & (keys.astype(str) != "")
+    parts = [g.to_numpy(dtype=float) for _, g in values[there].groupby(keys[there], sort=True)]
+    kept = [p for p in parts if len(p) >= least]
+    if len(kept) < 2 or sum(map(len, kept)) <= len(kept):
+        raise Missing(f"{len(kept)} groups of {least} values or more in {table}.csv")
+    if not np.ptp(np.concatenate(kept)):
+        raise Missing(f"no spread of {value} in {table}.csv")
+    done = stats.f_oneway(*kept) if test == "anova" else stats.kruskal(*kept)
+    n = sum(map(len, kept))
+    df = f"({len(kept) - 1}, {n - len(kept)})" if test == "anova" else f"({len(kept) - 1})"
+    level = context.number(alpha)
+    holds = (done.pvalue < level) == differ
+    letter = "F" if test == "anova" else "H"
+    told = f"{letter}{df} = {done.statistic:.3f}, p = {done.pvalue:.3g}"
+    why = f"{told}; n = {n}, level {level:g}, {len(kept)} groups"
+    dropped = len(parts) - len(kept)
+    why += f" ({dropped} with fewer than {least} left out)" if dropped else ""
+    return [Finding(HOLDS if holds else FAILS, why, recomputed=told,
+                    source=context.source(table))]  # fmt: skip
+
+
+@on_corpus
+def mostly(
+    context: OnCorpus, table: str, holds: str, share: float, missing: str, where: str = ""
+) -> list[Finding]:
+    """A condition for the claim to be tested at all: `holds` in at least this share of the rows.
+
+    With `gate: true` the claim is not testable where it is not met; `missing` says why.
+    """
+    frame = _rows(context, table, where)
+    answers = _numbers(context, table, frame, holds).astype(bool)
+    told = f"{holds} in {int(answers.sum())} of {len(answers)} rows"
+    if answers.mean() < share:
+        raise Missing(f"{missing} ({told})")
+    return [Finding(HOLDS, told, recomputed=f"{answers.mean():.0%}",
+                    source=context.source(table))]  # fmt: skip
+
+
+def _taken(
+    context: OnCorpus, table: str, frame: pd.DataFrame, by: Sequence[str], take: Mapping[str, str]
+) -> pd.DataFrame:
+    """Return a row a group with the numbers of `take` (`mean hit_rate`)."""
+    unknown = [name for name in by if name not in frame.columns]
+    if unknown:
+        raise Missing(f"{table}.csv lacks the columns {listed(unknown)}")
+    columns = {}
+    for name, recipe in take.items():
+        how, _, value = recipe.partition(" ")
+        if how not in TAKES or not value:
+            raise SignkinError(f"take: {recipe!r}", expected="such as `mean hit_rate`")
+        numbers = _numbers(context, table, frame, value).astype(float)
+        grouped = numbers.groupby([frame[k] for k in by], sort=True)
+        kind = {"sd": "std"}.get(how, how)
+        columns[name] = grouped.agg(kind).round(9)  # differences of times in seconds
+    return pd.DataFrame(columns).reset_index()
+
+
+@on_corpus
+def every(
+    context: OnCorpus,
+    table: str,
+    holds: str,
+    where: str = "",
+    by: Sequence[str] = (),
+    take: Mapping[str, str] | None = None,
+    show: str = "",
+    share: float = 1.0,
+) -> list[Finding]:
+    """A condition holds in every row, or in every group with the numbers of `take`.
+
+    share: it is enough if it holds in this share of them. show: the number told.
+    """
+    frame = _rows(context, table, where)
+    if take:
+        if not by:
+            frame = frame.assign(all="all")
+        frame = _taken(context, table, frame, list(by) or ["all"], take)
+    missing = frame.isna() if take else None
+    if missing is not None and missing.to_numpy().any():
+        frame = frame[~missing.any(axis=1)]
+        if frame.empty:
+            raise Missing(f"{table}.csv has no numbers for {listed(take or ())}")
+    answers = _numbers(context, table, frame, holds).astype(bool)
+    good = float(answers.mean())
+    what = "groups" if take else "rows"
+    told = f"{int(answers.sum())} of {len(answers)} {what}"
+    if show:
+        shown_values = _numbers(context, table, frame, show).astype(float)
+        told = f"{shown(float(shown_values.min()), 4)}"
+        if shown_values.nunique() > 1:
+            told += f" to {shown(float(shown_values.max()), 4)}"
+    why = f"{holds} in {int(answers.sum())} of {len(answers)} {what}"
+    against = frame[~answers]
+    if len(against) and by:
+        names = ["/".join(map(_label, row)) for row in against[list(by)].to_numpy()]
+        why += f"; not in {'/'.join(by)} {listed(names, 6)}"
+    fits = good >= share - 1e-12
+    return [Finding(HOLDS if fits else FAILS, why, recomputed=told,
+                    source=context.source(table))]  # fmt: skip
+
+
+@on_corpus
+def order(
+    context: OnCorpus,
+    table: str,
+    key: str,
+    take: Mapping[str, str] | None = None,
+    value: str = "",
+    where: str = "",
+    lowest: Sequence[object] = (),
+    highest: Sequence[object] = (),
+    below: Sequence[Sequence[object]] = (),
+) -> list[Finding]:
+    """Groups stand in the claimed order by a number, as they are (no test of the differences).
+
+    key: the column that names the groups. take and value: the number, from aggregates
+    (`take: {hits: mean hit_rate}`, `value: hits`); without take the table has one row a group.
+    """
+    frame = _rows(context, table, where)
+    if take:
+        frame = _taken(context, table, frame, [key], take)
+    elif key not in frame.columns:
+        raise Missing(f"{table}.csv lacks the column {key}")
+    numbers = _numbers(context, table, frame, value or next(iter(take or {"": ""})))
+    values = {_label(k): float(v) for k, v in zip(frame[key], numbers, strict=True) if v == v}
+    parts = [[_label(v) for v in part] for part in (lowest, highest, *below)]
+    names = list(dict.fromkeys(name for part in parts for name in part))
+    lacking = [name for name in names if name not in values]
+    if lacking:
+        raise Missing(f"{table}.csv has no number for {key} {listed(lacking)}")
+    pairs = ordered_pairs(list(values), parts[0], parts[1], parts[2:])
+    wrong = [(a, b) for a, b in pairs if not values[a] < values[b]]
+    told = ", ".join(f"{name} {shown(values[name], 4)}" for name in names)
+    why = f"{key}: {told}"
+    if wrong:
+        faults = [f"{a} ({shown(values[a], 4)}) is not under {b} ({shown(values[b], 4)})"
+                  for a, b in wrong]  # fmt: skip
+        why = listed(faults, 4)
+    elif not pairs:
+        return [Finding(UNDECIDABLE, "nothing to compare", source=context.source(table))]
+    return [Finding(FAILS if wrong else HOLDS, why, recomputed=told,
+                    source=context.source(table))]  # fmt: skip
+
+
+def _label(value: object) -> str:
+    if isinstance(value, float) and value.is_integer():
+        return str(int(value))
+    return str(value)

@@ -1,0 +1,199 @@
+"""The ledger: every claim of a paper with its verdict on each piece of evidence.
+
+On printed numbers a claim is `consistent` or `inconsistent`; on a corpus it `holds` or
+`fails`; else it is `not testable`, with what is missing. A simulated corpus tests the method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from signkin.audit import corpus_checks, published
+from signkin.audit.findings import (
+    CONSISTENT,
+    FAILS,
+    HOLDS,
+    INCONSISTENT,
+    NOT_TESTABLE,
+    UNDECIDABLE,
+    Finding,
+)
+from signkin.audit.paper import Check, Claim, Paper
+from signkin.audit.registry import CORPUS, PUBLISHED, Evidence, Missing, OnCorpus, OnPrint, run
+from signkin.tables import TABLES
+
+PRINT = "published numbers"
+SIMULATED, REAL = "simulated", "real"
+__all__ = ["CORPUS", "PUBLISHED", "Evidence", "Ledger", "audit", "corpus_checks", "published"]
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Verdicts (table `claims`: a row a claim and evidence) and findings (table `checks`)."""
+
+    claims: pd.DataFrame
+    checks: pd.DataFrame
+
+
+@dataclass(frozen=True)
+class _Done:
+    """A check with its findings; `missing`: why there are none."""
+
+    check: Check
+    findings: Sequence[Finding]
+    missing: str = ""
+
+    @property
+    def verdict(self) -> str:
+        verdicts = {finding.verdict for finding in self.findings}
+        for verdict in (INCONSISTENT, FAILS, CONSISTENT, HOLDS):
+            if verdict in verdicts:
+                return verdict
+        return UNDECIDABLE
+
+
+def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
+    """Run every check of every claim, on print and on each corpus.
+
+    corpora: their `files` are the tables of the study that the paper's claims read; see
+    `evidence_for`. Unknown checks, tables and arguments are errors at their line of claims.yaml.
+    """
+    corpora = list(corpora)
+    claims: list[dict[str, str]] = []
+    checks: list[dict[str, str]] = []
+    for paper in papers:
+        for claim in paper.claims:
+            for evidence in (None, *corpora):
+                done = _run(paper, claim, evidence)
+                verdict, note = _verdict(claim, evidence, done)
+                lead = {
+                    "paper": paper.folder.name,
+                    "id": claim.id,
+                    "location": claim.location,
+                    "evidence": PRINT if evidence is None else evidence.name,
+                    "evidence_kind": PRINT if evidence is None
+                    else SIMULATED if evidence.simulated else REAL,
+                }  # fmt: skip
+                claims.append(_claim_row(lead, claim, done, verdict, note))
+                checks += [row for d in done for row in _check_rows(lead, d)]
+    return Ledger(
+        pd.DataFrame(claims, columns=TABLES["claims"].names()),
+        pd.DataFrame(checks, columns=TABLES["checks"].names()),
+    )
+
+
+def evidence_for(
+    study: str, corpora: Mapping[str, bool], files: Iterable[Path], results: Path
+) -> list[Evidence]:
+    """Return the corpora with the tables that a study's claims may read.
+
+    corpora: name -> whether simulated. files: result tables, `results/<study>/<corpus>/*.csv`
+    and `results/<corpus>/*.csv`; the study's own go before the shared ones.
+    """
+    there: dict[str, dict[str, Path]] = {name: {} for name in corpora}
+    for path in sorted(map(Path, files), key=lambda p: p.as_posix()):
+        if path.suffix != ".csv" or not path.is_relative_to(results):
+            continue
+        parts = path.relative_to(results).parts
+        if len(parts) == 3 and parts[0] == study and parts[1] in there:
+            there[parts[1]][path.stem] = path
+        elif len(parts) == 2 and parts[0] in there:
+            there[parts[0]].setdefault(path.stem, path)
+    return [Evidence(name, simulated, there[name], results) for name, simulated in corpora.items()]
+
+
+def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
+    if evidence is None:
+        on_print = OnPrint(paper, claim)
+        return [_Done(check, run(check, on_print)) for check in claim.published]
+    on_corpus = OnCorpus(paper, claim, evidence)
+    out = []
+    kind = SIMULATED if evidence.simulated else REAL
+    for check in claim.corpora:
+        if check.only and check.only != kind:
+            out.append(_Done(check, (), f"a check for {check.only} corpora"))
+            continue
+        try:
+            out.append(_Done(check, run(check, on_corpus)))
+        except Missing as missing:
+            out.append(_Done(check, (), str(missing)))
+            if check.gate:
+                return out[-1:]
+    return out
+
+
+def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> tuple[str, str]:
+    """Return the verdict over all checks of a claim, and what is to be said about it."""
+    if not done:
+        missing = claim.published_missing if evidence is None else claim.corpora_missing
+        return NOT_TESTABLE, missing
+    bad, good = (INCONSISTENT, CONSISTENT) if evidence is None else (FAILS, HOLDS)
+    told = [_told(d) for d in done]
+    if any(d.verdict == bad for d in done):
+        return bad, "; ".join(t for t, d in zip(told, done, strict=True) if d.verdict == bad)
+    open_ = [(t, d) for t, d in zip(told, done, strict=True) if d.verdict == UNDECIDABLE]
+    if all(d.verdict == UNDECIDABLE for d in done) or any(d.check.decisive for _, d in open_):
+        missing = claim.published_missing if evidence is None else f"needs {claim.needs}"
+        words = list(dict.fromkeys(t for t, _ in open_))
+        if missing and missing not in words:
+            words.append(missing)
+        return NOT_TESTABLE, "; ".join(words)
+    return good, "; ".join(dict.fromkeys(told))
+
+
+def _told(done: _Done) -> str:
+    """Return one sentence about a check: of many rows, those that are not as the rest."""
+    if done.missing:
+        return done.missing
+    if len(done.findings) == 1:
+        return done.findings[0].why
+    good = [f for f in done.findings if f.verdict in (CONSISTENT, HOLDS)]
+    others = [f for f in done.findings if f not in good]
+    told = (
+        f"{done.check.name}: {len(good)} of {len(done.findings)} {good[0].verdict if good else ''}"
+    )
+    if len(done.findings) <= 3:
+        told = "; ".join(f.why for f in good)
+    parts = [told] + [f"{f.item}: {f.verdict}, {f.why}" for f in others]
+    return "; ".join(part for part in parts if part)
+
+
+def _claim_row(
+    lead: Mapping[str, str], claim: Claim, done: Sequence[_Done], verdict: str, note: str
+) -> dict[str, str]:
+    single = [f for d in done if len(d.findings) <= 3 for f in d.findings]
+    sources = list(dict.fromkeys(f.source for d in done for f in d.findings if f.source))
+    printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
+    return {
+        **lead,
+        "claim": claim.claim,
+        "printed": printed,
+        "recomputed": "; ".join(f.recomputed for f in single if f.recomputed),
+        "interval": "; ".join(f.interval for f in single if f.interval),
+        "verdict": verdict,
+        "note": note,
+        "source": " ".join(sources),
+    }
+
+
+def _check_rows(lead: Mapping[str, str], done: _Done) -> list[dict[str, str]]:
+    findings = done.findings or (Finding(NOT_TESTABLE, done.missing),)
+    return [
+        {
+            **lead,
+            "check": done.check.name,
+            "item": f.item,
+            "reads": done.check.reads,
+            "printed": f.printed,
+            "recomputed": f.recomputed,
+            "interval": f.interval,
+            "verdict": f.verdict,
+            "why": f.why,
+            "source": f.source,
+        }
+        for f in findings
+    ]

@@ -1,0 +1,249 @@
+"""A paper's folder: claims.yaml and the printed tables beside it, all digits as text."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+
+from signkin.errors import SignkinError, listed
+
+SCHEMA = Path(__file__).resolve().parents[3] / "workflow" / "schemas" / "claims.schema.yaml"
+OWN = ("check", "reads", "decisive", "only", "gate")  # keys of a check that are no arguments of it
+GUIDE = "See docs/claims.md."
+
+
+@dataclass(frozen=True)
+class PrintedRow:
+    """A row of a printed table, as text, and the line it stands in."""
+
+    cells: Mapping[str, str]
+    file: Path
+    line: int
+
+    def __getitem__(self, column: str) -> str:
+        """Return a cell; an unknown column is an error."""
+        if column not in self.cells:
+            raise SignkinError(
+                f"no column {column!r}",
+                file=self.file,
+                place="line 1",
+                expected=listed(self.cells, 30),
+            )
+        return self.cells[column]
+
+    @property
+    def place(self) -> str:
+        """`line 3`."""
+        return f"line {self.line}"
+
+
+@dataclass(frozen=True)
+class Check:
+    """A check as a claim asks for it: its name, its arguments, how the claim is read."""
+
+    name: str
+    arguments: Mapping[str, Any]
+    reads: str
+    decisive: bool
+    only: str  # `simulated` or `real`: corpora it can be run on; empty for all
+    gate: bool  # without it the claim cannot be tested
+    line: int
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim of a paper, and how it is tested on print and on corpora."""
+
+    id: str
+    location: str
+    claim: str
+    printed: Mapping[str, str]
+    published: tuple[Check, ...]
+    published_missing: str
+    corpora: tuple[Check, ...]
+    corpora_missing: str
+    needs: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A specification curve: which table has a claim's specifications, and its columns."""
+
+    claim: str
+    table: str
+    choices: Mapping[str, str]
+    estimate: str
+    label: str
+    reads: str
+    where: str
+    reference: str
+    holds: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A paper with its claims. `study`: the folder of its results, `results/<study>`."""
+
+    folder: Path
+    title: str
+    study: str
+    claims: tuple[Claim, ...]
+    curves: tuple[Curve, ...]
+    tables: dict[str, list[PrintedRow]] = field(default_factory=dict)
+
+    @property
+    def file(self) -> Path:
+        """The file claims.yaml."""
+        return self.folder / "claims.yaml"
+
+    def table(self, name: str) -> list[PrintedRow]:
+        """Return the rows of a printed table of the paper."""
+        if name not in self.tables:
+            self.tables[name] = list(_rows(self.folder / name, self.folder))
+        return self.tables[name]
+
+    def printed(self) -> dict[str, str]:
+        """Return every printed number by `claim.name`."""
+        return {f"{c.id}.{name}": text for c in self.claims for name, text in c.printed.items()}
+
+
+def _rows(path: Path, folder: Path) -> Iterator[PrintedRow]:
+    if not path.is_file():
+        there = sorted(p.name for p in folder.glob("*.csv"))
+        raise SignkinError(f"there is no table {path.name}", file=folder, expected=listed(there))
+    reader = csv.DictReader(path.read_text(encoding="utf-8-sig").splitlines(), strict=True)
+    for cells in reader:
+        if None in cells or None in cells.values():
+            raise SignkinError(
+                "the row has more or fewer cells than the header",
+                file=path,
+                place=f"line {reader.line_num}",
+                expected=listed(reader.fieldnames or ()),
+                todo="A decimal comma wants a point.",
+            )
+        yield PrintedRow(cells, path, reader.line_num)
+
+
+def read_paper(folder: str | Path) -> Paper:
+    """Read and check a folder `papers/<paper>`; the error names the line of claims.yaml."""
+    folder = Path(folder)
+    path = folder / "claims.yaml"
+    if not folder.is_dir():
+        raise SignkinError(
+            f"there is no folder {folder}", expected="a paper: claims.yaml and its tables",
+            todo=GUIDE,
+        )  # fmt: skip
+    if not path.is_file():
+        raise SignkinError("there is no claims.yaml", file=folder, todo=GUIDE)
+    text = path.read_text(encoding="utf-8")
+    try:
+        content = yaml.safe_load(text)
+        lines = dict(_lines(yaml.compose(text, Loader=yaml.SafeLoader), ()))
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = None if mark is None else f"line {mark.line + 1}"
+        problem = getattr(error, "problem", None) or "it is not YAML"
+        raise SignkinError(str(problem), file=path, place=place) from None
+    _check_schema(content, path, lines)
+    claims = tuple(_claims(content, lines))
+    seen: dict[str, int] = {}
+    for claim in claims:
+        if claim.id in seen:
+            raise SignkinError(
+                f"the claim {claim.id} stands in line {seen[claim.id]} already",
+                file=path,
+                place=f"line {claim.line}",
+                expected="each once",
+            )
+        seen[claim.id] = claim.line
+    curves = tuple(
+        Curve(
+            claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
+            label=c["label"], reads=c["reads"], where=c.get("where", ""),
+            reference=c.get("reference", ""), holds=c.get("holds", ""),
+            line=lines[("multiverse", i)],
+        )
+        for i, c in enumerate(content.get("multiverse", []))
+    )  # fmt: skip
+    for curve in curves:
+        if curve.claim not in seen:
+            raise SignkinError(
+                f"the curve's claim {curve.claim} is not a claim of the paper",
+                file=path,
+                place=f"line {curve.line}",
+                expected=listed(seen, 40),
+            )
+    return Paper(folder, content["paper"], content["study"], claims, curves)
+
+
+def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) -> Iterator[Claim]:
+    for i, claim in enumerate(content["claims"]):
+        checks = {}
+        for side in ("published", "corpora"):
+            checks[side] = tuple(
+                Check(
+                    name=c["check"],
+                    arguments={k: v for k, v in c.items() if k not in OWN},
+                    reads=c.get("reads", ""),
+                    decisive=c.get("decisive", True),
+                    only=c.get("only", ""),
+                    gate=c.get("gate", False),
+                    line=lines[("claims", i, side, "checks", j)],
+                )
+                for j, c in enumerate(claim[side].get("checks", []))
+            )
+        yield Claim(
+            id=claim["id"],
+            location=str(claim["location"]),
+            claim=claim["claim"],
+            printed=claim.get("printed", {}),
+            published=checks["published"],
+            published_missing=claim["published"].get("missing", ""),
+            corpora=checks["corpora"],
+            corpora_missing=claim["corpora"].get("missing", ""),
+            needs=claim["needs"],
+            line=lines[("claims", i)],
+        )
+
+
+def _lines(node: Any, path: tuple[Any, ...]) -> Iterator[tuple[tuple[Any, ...], int]]:
+    yield path, node.start_mark.line + 1
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            yield from _lines(value, (*path, key.value))
+            yield (*path, key.value), key.start_mark.line + 1
+    elif isinstance(node, yaml.SequenceNode):
+        for i, value in enumerate(node.value):
+            yield from _lines(value, (*path, i))
+
+
+@cache
+def _validator() -> jsonschema.Draft202012Validator:
+    content = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
+    return jsonschema.Draft202012Validator(content)
+
+
+def _check_schema(content: Any, path: Path, lines: Mapping[tuple[Any, ...], int]) -> None:
+    error = jsonschema.exceptions.best_match(_validator().iter_errors(content))
+    if error is None:
+        return
+    at = tuple(error.absolute_path)
+    while at not in lines:
+        at = at[:-1]
+    rule = error.schema if isinstance(error.schema, dict) else {}
+    raise SignkinError(
+        error.message if len(error.message) < 160 else error.message[:157] + "...",
+        file=path,
+        place=f"line {lines[at]}",
+        expected=rule.get("description"),
+        todo=GUIDE,
+    )

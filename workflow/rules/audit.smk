@@ -1,0 +1,98 @@
+# The audit: every claim of the papers on print and on the corpora of this run.
+
+
+rule claims:
+    """The ledger: a verdict for every claim and piece of evidence."""
+    input:
+        rules.naert2017.input,
+        rules.naert2017_durations.input,
+        rules.endres2013.input,
+        shared=collect(rules.gather.output, corpus=PLAN.corpora),
+        papers=PLAN.claim_files(),
+    output:
+        claims="<results>/audit/claims.csv",
+        checks="<results>/audit/checks.csv",
+    log:
+        "<logs>/audit/claims.log",
+    params:
+        code=PLAN.digest("claims.py"),
+        papers=[str(folder) for folder in PLAN.claimed],
+        corpora={
+            name: corpus.simulator is not None for name, corpus in PLAN.corpora.items()
+        },
+    script:
+        "../scripts/claims.py"
+
+
+rule multiverse:
+    """Claims of Naert et al. under every combination of open choices."""
+    input:
+        recordings=lambda w: collect(
+            "<results>/{corpus}/recordings/{shard}.parquet",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        intervals=rules.gather.output.intervals,
+        excluded=rules.gather.output.excluded,
+        transitions=rules.naert_tables.output.transitions,
+    output:
+        table="<results>/naert2017/{corpus}/multiverse.csv",
+    log:
+        "<logs>/naert2017/{corpus}/multiverse.log",
+    params:
+        code=PLAN.digest("multiverse.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            k: config[k]
+            for k in ("kinematics", "refinement", "transitions", "multiverse")
+        },
+    script:
+        "../scripts/multiverse.py"
+
+
+rule curves:
+    """What the claims rest on: a specification curve for each."""
+    input:
+        collect(rules.multiverse.output, corpus=PLAN.tagged),
+        rules.endres2013.input,
+        papers=PLAN.claim_files(),
+    output:
+        folder=directory("<results>/audit/curves"),
+    log:
+        "<logs>/audit/curves.log",
+    params:
+        code=PLAN.digest("curves.py"),
+        papers=[str(folder) for folder in PLAN.claimed],
+        corpora={
+            name: corpus.simulator is not None for name, corpus in PLAN.corpora.items()
+        },
+    script:
+        "../scripts/curves.py"
+
+
+rule audit_page:
+    """The audit as a page."""
+    input:
+        claims=rules.claims.output.claims,
+        checks=rules.claims.output.checks,
+        curves=rules.curves.output.folder,
+        papers=PLAN.claim_files(),
+    output:
+        page="<results>/audit/index.html",
+        printed=directory("<results>/audit/printed"),
+    log:
+        "<logs>/audit/page.log",
+    params:
+        code=PLAN.digest("audit_page.py"),
+        papers=[str(folder) for folder in PLAN.claimed],
+    script:
+        "../scripts/audit_page.py"
+
+
+rule audit:
+    """The audit of both papers: claims.csv, the curves and the page."""
+    input:
+        rules.claims.output,
+        rules.curves.output,
+        rules.audit_page.output,
