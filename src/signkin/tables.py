@@ -748,11 +748,12 @@ for _table in (
         (
             *_CLAIM,
             _text("check", "check, as the claim names it"),
+            _text("counts", "yes; or `beside the claim`: told, without a say in its verdict"),
             _text("item", "row of the printed table that the finding is about"),
             _text("reads", "how the claim is read"),
             _text("printed", "as printed"),
             _text("recomputed", "recomputed"),
-            _text("interval", "what rounding allows; on a corpus, 95 % by bootstrap"),
+            _text("interval", "what rounding allows; on a corpus, 95 % by bootstrap, or what chance gives"),
             _text("verdict", "consistent, inconsistent, undecidable; holds, fails; not testable"),
             _text("why", "one sentence"),
             _text("source", "table behind it"),
