@@ -168,9 +168,7 @@ def _told(done: _Done) -> str:
 def _claim_row(
     lead: Mapping[str, str], claim: Claim, done: Sequence[_Done], verdict: str, note: str
 ) -> dict[str, str]:
-    single = [
-        f for d in done if not d.check.beside and len(d.findings) <= 3 for f in d.findings
-    ]
+    single = [f for d in done if not d.check.beside and len(d.findings) <= 3 for f in d.findings]
     sources = list(dict.fromkeys(f.source for d in done for f in d.findings if f.source))
     printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
     return {

@@ -15,7 +15,14 @@ import yaml
 from signkin.errors import SignkinError, listed
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow" / "schemas" / "claims.schema.yaml"
-OWN = ("check", "reads", "decisive", "only", "gate", "beside")  # keys of a check that are no arguments of it
+OWN = (
+    "check",
+    "reads",
+    "decisive",
+    "only",
+    "gate",
+    "beside",
+)  # keys of a check that are no arguments of it
 GUIDE = "See docs/claims.md."
 
 
