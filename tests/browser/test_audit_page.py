@@ -39,6 +39,21 @@ def test_it_is_no_wider_than_the_window(audit_page):
         assert audit_page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+def test_it_tells_where_the_two_papers_agree(audit_page):
+    section = audit_page.locator("#two-papers")
+    assert "manual tags are hit above chance on 2 of 2 wrists" in section.inner_text()
+    assert section.locator("tbody tr").count() == 6
+    claim = audit_page.locator(".exhibit", has=audit_page.locator(".label", has_text="N19")).first
+    assert claim.locator("td", has_text="beside the claim").count() == 2
+
+
+def test_its_figures_are_drawn(audit_page):
+    images = audit_page.locator("img")
+    assert images.count() >= 5
+    for image in images.all():
+        assert image.evaluate("e => e.naturalWidth") > 300
+
+
 def test_the_report_links_to_it(browser, report):
     page = browser.new_page()
     page.goto(report.as_uri())

@@ -26,6 +26,10 @@ def test_the_page_is_whole_and_asks_nobody(page):
     assert "Endres, Meirovitch, Flash & Giese 2013" in text
 
 
+def test_it_stays_light(report):
+    assert report.stat().st_size < 2.5e6  # some 20 figures at a tenth of a megabyte
+
+
 def test_every_figure_is_drawn_and_described(page):
     images = page.locator("img")
     assert images.count() >= 10

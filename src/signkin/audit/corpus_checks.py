@@ -361,7 +361,8 @@ def beyond_chance(
     why = f"above chance in {len(above)} of {len(names)} ({'/'.join(by)})"
     why += f", not in {listed(under, 9)}" if under else ""
     why += f"; no chance interval for {listed(unsure, 9)}" if unsure else ""
-    return [Finding(HOLDS if len(above) >= least else FAILS, f"{why}. Share (chance): {', '.join(told)}",
+    why += f". Share (chance): {', '.join(told)}"
+    return [Finding(HOLDS if len(above) >= least else FAILS, why,
                     recomputed=f"{len(above)} of {len(names)} above chance",
                     source=context.source(table))]  # fmt: skip
 
