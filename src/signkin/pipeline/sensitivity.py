@@ -186,7 +186,8 @@ def draw(frame: pd.DataFrame) -> Figure:
         )  # fmt: skip
         if column.startswith("mean_count"):
             ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
-            ax.set_yticks([0, 5, 10, 50, 100], ["0", "5", "10", "50", "100"])
+            ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
+            ax.set_ylim(-1.5, 160)
         ax.set_ylabel(label, fontsize=7.5)
         ax.tick_params(axis="x", labelsize=7)
     figure.legend(
