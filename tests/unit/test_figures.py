@@ -254,6 +254,6 @@ def test_the_page_escapes_folds_and_embeds(tmp_path):
     assert "&lt;b&gt;" in html
     assert "X &amp; Y" in html
     assert "1 more row<" in html
-    assert "data:image/svg+xml;base64," in html
+    assert "data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg'/>" in html
     assert 'href="../f.pdf"' in html
     assert "no evidence about people" in html

@@ -115,7 +115,7 @@ def _read(path: Path, name: str) -> pd.DataFrame:
 
 
 def _writes(paths: str, name: str) -> bool:
-    return any(Path(p.strip()).name == f"{name}.csv" for p in paths.split(","))
+    return any(Path(p.strip()).name == f"{Path(name).name}.csv" for p in paths.split(","))
 
 
 def _guessed(path: Path) -> pd.DataFrame:
