@@ -1037,6 +1037,7 @@ TABLES |= {
                 Column("order_peak_powerlaw", "", "the same peak, power-law ground truth"),
                 Column("hit_rate_order_3", "", "mean, power-law ground truth"),
                 Column("false_positives_per_s_order_3", "1/s", "mean, power-law ground truth"),
+                Column("chance_high_order_3", "", "97.5 % of sets of as many Poisson events"),
                 Column("hpfpps_order_3", "s", "pooled, power-law ground truth"),
                 _text("hpfpps_peak", "orders with the highest pooled ratio"),
                 Column("recovered_probability", "", "fitted_map of order 3: mean P(S = 3 | D)"),
