@@ -98,13 +98,14 @@ def test_explained_variance_by_hand():
     assert explained_variance(x, x) == 1
     assert explained_variance(x, np.tile(x.mean(axis=0), (4, 1))) == pytest.approx(0)
     # Total: 9 + 1 + 1 + 9 + 0.25 * 3 + 2.25 = 23; residual: 1.
-    assert explained_variance(x, x + [[1, 0], [0, 0], [0, 0], [0, 0]]) == pytest.approx(1 - 1 / 23)
+    off = np.array([[1, 0], [0, 0], [0, 0], [0, 0]])
+    assert explained_variance(x, x + off) == pytest.approx(1 - 1 / 23)
 
 
 def test_a_study_centres_and_leaves_out_with_a_reason():
     corpus = corpus_of(["a", "still", "tiny", "gap"])
     good = trajectory()
-    moved = replace(good, x=good.x + [3.0, -2.0, 1.0])
+    moved = replace(good, x=good.x + np.array([3.0, -2.0, 1.0]))
     still = replace(good, recording="still", x=np.ones((BINS, 3)))
     tiny = replace(good, recording="tiny", x=good.x[:2])
     gap = replace(good, recording="gap", x=good.x.copy())
@@ -262,7 +263,7 @@ def test_the_number_of_workers_changes_no_bit(studied, tmp_path):
 
 
 def test_posteriors_come_back_from_their_file(studied, tmp_path):
-    _, cut, found = studied
+    found = studied[2]
     fits = found[1].fits
     write_posteriors(tmp_path / "1.parquet", fits[:3])
     write_posteriors(tmp_path / "2.parquet", fits[3:])
