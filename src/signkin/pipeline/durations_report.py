@@ -92,7 +92,7 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
         "test": ("test", ""),
         "comparison": ("of", ""),
         "tested": ("statistic", ""),
-        "p": ("p", ".4f"),
+        "p": ("p", ".2g"),
         "sized": ("effect [interval]", ""),
         "n": ("n", "d"),
         "powered": ("power", ""),
