@@ -351,7 +351,7 @@ def beyond_chance(
         if np.isnan([row.x, row.a, row.b]).any():
             unsure.append(name)
             continue
-        told.append(f"{name}: {row.x:.2f} (chance {row.a:.2f} to {row.b:.2f})")
+        told.append(f"{name}: {row.x:.2f} ({row.a:.2f} to {row.b:.2f})")
         if row.x > row.b:
             above.append(name)
     least = len(names) if all_of else int(np.floor(more_than * len(names))) + 1
@@ -361,7 +361,7 @@ def beyond_chance(
     why = f"above chance in {len(above)} of {len(names)} ({'/'.join(by)})"
     why += f", not in {listed(under, 9)}" if under else ""
     why += f"; no chance interval for {listed(unsure, 9)}" if unsure else ""
-    return [Finding(HOLDS if len(above) >= least else FAILS, f"{why}. {'; '.join(told)}",
+    return [Finding(HOLDS if len(above) >= least else FAILS, f"{why}. Share (chance): {', '.join(told)}",
                     recomputed=f"{len(above)} of {len(names)} above chance",
                     source=context.source(table))]  # fmt: skip
 
@@ -397,8 +397,8 @@ def order(
         raise Missing(f"{table}.csv has no number for {key} {listed(lacking)}")
     pairs = ordered_pairs(list(values), parts[0], parts[1], parts[2:])
     wrong = [(a, b) for a, b in pairs if not values[a] < values[b]]
-    told = ", ".join(f"{name} {shown(values[name], 4)}" for name in names)
-    why = f"{key}: {told}"
+    told = ", ".join(f"{name}: {shown(values[name], 4)}" for name in names)
+    why = f"by {key}, {told}"
     if wrong:
         faults = [f"{a} ({shown(values[a], 4)}) is not under {b} ({shown(values[b], 4)})"
                   for a, b in wrong]  # fmt: skip

@@ -128,7 +128,7 @@ def _guessed(path: Path) -> pd.DataFrame:
         filled = texts[texts != ""]
         numbers = pd.to_numeric(filled, errors="coerce")
         if len(filled) and numbers.notna().all():
-            frame[column] = pd.to_numeric(texts.replace("", "nan"))
+            frame[column] = pd.to_numeric(texts, errors="coerce")  # empty: missing
         elif len(filled) and filled.isin(["True", "False"]).all():
             frame[column] = texts == "True"
     return frame
