@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from signkin import tables
 from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hpfpps
 from signkin.corpus import Corpus
+from signkin.errors import SignkinError
 from signkin.figures import sensitivity as drawing
 from signkin.figures.style import WIDTH_IN
 from signkin.pipeline.binning import FITTED_MAP, Data, Fitted, Study, rows_of
@@ -41,6 +42,12 @@ def sensitivity(
 
     recordings: those to be run. settings: the sections `kinematics`, `binning`, `powerlaw`.
     """
+    if not recordings:
+        raise SignkinError(
+            "no recording has a power-law ground truth",
+            file=corpus.folder,
+            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+        )
     grid = settings["binning"]["sensitivity"]
     rows = []
     for bins in grid["bins"]:
