@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from signkin import tables
 from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hpfpps
 from signkin.corpus import Corpus
+from signkin.errors import SignkinError
 from signkin.figures import sensitivity as drawing
 from signkin.figures.style import WIDTH_IN
 from signkin.pipeline.binning import FITTED_MAP, Data, Fitted, Study, rows_of
@@ -41,6 +42,12 @@ def sensitivity(
 
     recordings: those to be run. settings: the sections `kinematics`, `binning`, `powerlaw`.
     """
+    if not recordings:
+        raise SignkinError(
+            "no recording has a power-law ground truth",
+            file=corpus.folder,
+            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+        )
     grid = settings["binning"]["sensitivity"]
     rows = []
     for bins in grid["bins"]:
@@ -208,7 +215,8 @@ def draw(frame: pd.DataFrame) -> Figure:
         )  # fmt: skip
         if column.startswith("mean_count"):
             ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
-            ax.set_yticks([0, 5, 10, 50, 100], ["0", "5", "10", "50", "100"])
+            ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
+            ax.set_ylim(-1.5, 160)
         ax.set_ylabel(label, fontsize=7.5)
         ax.tick_params(axis="x", labelsize=7)
     figure.legend(

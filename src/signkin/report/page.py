@@ -92,6 +92,7 @@ def render(page: Page, home: Path) -> str:
     environment.tests["numeric"] = lambda form: bool(form) and form not in WORDS
     environment.globals["cell"] = cell
     environment.globals["rows_of"] = rows_of
+    environment.globals["notes_of"] = notes_of
     return environment.get_template("page.html.j2").render(page=page)
 
 
@@ -130,6 +131,20 @@ def lighter(svg: str) -> str:
 def rows_of(view: TableView) -> list[dict[str, Any]]:
     """Return the rows of a table as dictionaries."""
     return view.frame.to_dict("records")
+
+
+MOST_NOTES = 20  # more of them stay in their rows
+
+
+def notes_of(view: TableView) -> list[str]:
+    """Return the different notes of a table, which stand below it with numbers; none if many.
+
+    A column of sentences would make the rows of all others tall.
+    """
+    if "note" not in view.columns:
+        return []
+    notes = [str(note) for note in dict.fromkeys(view.frame["note"]) if note and pd.notna(note)]
+    return notes if len(notes) <= MOST_NOTES else []
 
 
 def cell(value: object, form: str) -> str:
