@@ -10,6 +10,18 @@ STUDY = "<results>/endres2013/{corpus}"
 SHARD = STUDY + "/shards/{shard}"
 
 
+rule compile_kernels:
+    """Compiled code of the binning engine, once for all jobs."""
+    output:
+        touch("<results>/endres2013/kernels.done"),
+    log:
+        "<logs>/endres2013/kernels.log",
+    params:
+        code=PLAN.digest("compile_kernels.py"),
+    script:
+        "../scripts/compile_kernels.py"
+
+
 rule single_signs:
     """Wrist paths into bins, as recorded and with power-law timing (2.2 to 2.4)."""
     input:
@@ -37,6 +49,7 @@ rule single_signs:
 rule bin_single_signs:
     """Bayesian binning with every polynomial order (2.5, 3)."""
     input:
+        rules.compile_kernels.output,
         trajectories=rules.single_signs.output.trajectories,
     output:
         binning=SHARD + "/binning.csv",
@@ -160,6 +173,7 @@ rule sensitivity:
 rule long_series:
     """Wrists of continuous recordings as long series, with a longest segment."""
     input:
+        rules.compile_kernels.output,
         recordings=rules.ingest.output.recordings,
     output:
         wrist_posteriors=SHARD + "/wrist_posteriors.csv",

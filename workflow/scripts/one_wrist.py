@@ -33,10 +33,9 @@ with job(snakemake):
         tables.write_table(gathered[name], path, name, unit)
     tables.write_table(compared, out.table, "one_wrist")
     tables.write_table(points, out.csv, "endres_figure")
-    recording = long_series.example(about, posteriors)
-    frames = pd.concat(
-        pd.read_parquet(path, filters=[("recording", "=", recording)]) for path in source.frames
-    )
+    frames = pd.concat(pd.read_parquet(path) for path in source.frames)
+    recording = long_series.example(about, posteriors, set(frames["recording"]))
+    frames = frames[frames["recording"] == recording]
     with paper_style():
         save(long_series.draw(corpus, points, frames, events, recording), out.svg, out.pdf)
     text = long_series.caption(compared, recording, settings)

@@ -20,6 +20,9 @@ LANES = 8  # sums that are kept in registers together
 LEAST_WEIGHT = -345.0  # log of the smallest weight that is not taken for 0
 UNDERFLOW = 1e-120  # a sum in the linear domain below this may have lost terms
 NEGLIGIBLE = 1e-20  # weight, in units of the best path, that posteriors pass over
+# Penalties of a segment in units of ln T, for bounds; those that mostly are enough go first.
+TAIL_PENALTIES = (-0.5, -2.0, 0.0, -8.0, 0.2, 0.5, 1.0, 2.0, 8.0)
+TAIL_WANTED = 1e-12
 MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 LEAST = 1e-13  # probability of a segment that expectations pass over
 
@@ -739,9 +742,44 @@ def uncovered(log_by_count: F, offset: I, ways: F, mass: F) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def tail_share(evidence: F, log_by_count: F, best: F, bound: F) -> float:
+    """Return a bound on the share of P(M | D) beyond the counts worked out.
+
+    log_by_count: (C,) ln(P(M) P(D | M)). P(D | M) is a mean over segmentations, so at most the
+    best one's likelihood; and for any penalty, that is at most the best penalised path, with the
+    penalties of M + 1 segments put back. The least over some penalties is the bound; no more of
+    them are tried than are wanted. bound: (T,) scratch.
+    """
+    bins = evidence.shape[0]
+    counts = len(log_by_count)
+    if counts >= bins:
+        return 0.0
+    top = -np.inf
+    for m in range(counts):
+        top = max(top, log_by_count[m])
+    total = 0.0
+    for m in range(counts):
+        total += math.exp(log_by_count[m] - top)
+    log_evidence = top + math.log(total)
+    bound[:] = np.inf
+    share = 1.0
+    for penalty in TAIL_PENALTIES:
+        price = penalty * math.log(bins)
+        best_path(evidence, price, best)
+        sum_ = 0.0
+        for m in range(counts, bins):
+            bound[m] = min(bound[m], best[bins] + (m + 1) * price)
+            sum_ += math.exp(min(0.0, bound[m] - math.log(bins) - log_evidence))
+        share = min(1.0, sum_)
+        if share < TAIL_WANTED:
+            break
+    return share
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def fit_orders(
     evidence: F, wanted: I, log_prior: F, log_by_count: F, probability: F, boundary: F,
-    log_evidence: F, lost: F,
+    log_evidence: F, lost: F, cut: F,
 ) -> None:  # fmt: skip
     """Work out some orders with counts 0..C-1; evidence (D, T, W) becomes segment probabilities.
 
@@ -755,9 +793,11 @@ def fit_orders(
     ways = np.empty((bins + 1, columns_for(counts)))
     before = np.empty(ways.shape)
     mass = np.empty(counts)
+    bound = np.empty(bins)
     for i in range(len(wanted)):
         of_order = evidence[wanted[i]]
         counts_of_order(of_order, log_prior, log_by_count[i], weight, best, offset, ways)
+        cut[i] = tail_share(of_order, log_by_count[i], best, bound)
         # The posterior overwrites the evidence, which is wanted again where a pass loses counts.
         again = uncovered(log_by_count[i], offset, ways, mass) > MOST_LOST
         kept = of_order.copy() if again else of_order

@@ -38,7 +38,6 @@ TAIL_STEPS = 4
 MOST_NOISES = 1e60  # squares and their determinants overflow above
 NO_CANCELLATION = 0.01
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
-PENALTIES = (8.0, 2.0, 1.0, 0.5, 0.2, 0.0, -0.5, -2.0, -8.0)  # in units of ln T, for bounds
 
 
 @dataclass(frozen=True, eq=False)
@@ -395,17 +394,14 @@ def _counted(
     most = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
     counts = most + 1
     rows = len(wanted)
-    # The bound wants the evidence, which is overwritten.
-    bounds = [_log_tail(evidence[d], counts, bins) for d in wanted]
     log_by_count, probability = np.empty((2, rows, counts))
     boundary = np.empty((rows, bins))
-    log_evidence, lost = np.empty((2, rows))
+    log_evidence, lost, cut = np.empty((3, rows))
     kernels.fit_orders(
         evidence, np.array(wanted), np.ascontiguousarray(_log_prior(bins, longest)[:counts]),
-        log_by_count, probability, boundary, log_evidence, lost,
+        log_by_count, probability, boundary, log_evidence, lost, cut,
     )  # fmt: skip
     _refuse_lost(lost)
-    cut = np.array([_share(b, e) for b, e in zip(bounds, log_evidence, strict=True)])
     return _Found(log_by_count, probability, boundary, log_evidence, cut)
 
 
@@ -544,25 +540,3 @@ def _log_comb(n: NDArray[np.int64], k: NDArray[np.int64]) -> Floats:
     inside = (k >= 0) & (k <= n)
     n, k = np.where(inside, n, 0), np.where(inside, k, 0)
     return np.asarray(gammaln(n + 1) - gammaln(k + 1) - gammaln(n - k + 1))
-
-
-def _log_tail(evidence: Floats, first: int, bins: int) -> float:
-    """Return the log of a bound on the sum of P(M) P(D | M) over M >= first. Quick, for short T.
-
-    P(D | M) is a mean over segmentations, so at most the best one's likelihood; and for any
-    penalty, that is at most the best penalised path, with the penalties of M + 1 segments put
-    back. The least over some penalties is the bound.
-    """
-    m = np.arange(first, bins)
-    if not len(m):
-        return -np.inf
-    best = np.empty(bins + 1)
-    bound = np.full(len(m), np.inf)
-    for penalty in np.log(bins) * np.array(PENALTIES):
-        kernels.best_path(evidence, float(penalty), best)
-        bound = np.minimum(bound, best[bins] + (m + 1) * penalty)
-    return float(logsumexp(bound)) + _log_uniform(bins)
-
-
-def _share(log_tail: float, log_evidence: float) -> float:
-    return float(np.exp(min(0.0, log_tail - log_evidence)))

@@ -7,7 +7,7 @@ hand, the manual tags and the tags refined to minima (Naert et al. 2017, 4.1, 4.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -336,8 +336,9 @@ def draw(
     columns = max(len(panels) // len(HANDS), 1)
     figure = plt.figure(figsize=(WIDTH_IN * 1.2, 3.6 + 2.5 * len(HANDS)))
     grid = figure.add_gridspec(4, columns, height_ratios=[1, 1, 1.55, 1.55])
-    first = float(frames["time_s"].max()) / 3
-    window = (first, first + EXCERPT_S)
+    last = float(frames["time_s"].max())
+    first = max(0.0, min(last / 3, last - EXCERPT_S))
+    window = (first, min(first + EXCERPT_S, last))
     for i, hand in enumerate(HANDS):
         ax = figure.add_subplot(grid[i, :])
         mine = {kind: known.of(recording, hand) for kind, known in events.items()}
@@ -354,10 +355,17 @@ def draw(
     return figure
 
 
-def example(about: pd.DataFrame, posteriors: pd.DataFrame) -> str:
-    """Return the recording to be drawn: the longest one that was binned."""
-    binned = about[about["recording"].isin(set(posteriors["recording"]))]
-    return str(binned.loc[binned["duration_s"].idxmax(), "recording"])
+def example(about: pd.DataFrame, posteriors: pd.DataFrame, with_frames: Container[str]) -> str:
+    """Return the recording to be drawn: the longest one that was binned and has kinematics."""
+    binned = set(posteriors["recording"])
+    there = about[[name in binned and name in with_frames for name in about["recording"]]]
+    if there.empty:
+        raise SignkinError(
+            "no recording has both a wrist in bins and a speed",
+            place="one wrist",
+            expected="one or more; wrists_left_out.csv and excluded.csv tell why not",
+        )
+    return str(there.loc[there["duration_s"].idxmax(), "recording"])
 
 
 def caption(frame: pd.DataFrame, recording: str, settings: Mapping[str, Any]) -> str:
