@@ -41,7 +41,7 @@ def _point(panel: str, series: str, x: float, y: float, **more: Any) -> dict[str
 
 def _frame(corpus: str, rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     frame = pd.DataFrame(rows, columns=tables.TABLES["endres_figure"].names()[1:])
-    frame["label"] = frame["label"].fillna("")
+    frame["label"] = frame["label"].astype(object).fillna("")
     frame.insert(0, "corpus", corpus)
     return frame
 

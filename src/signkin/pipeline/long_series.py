@@ -257,7 +257,7 @@ def one_wrist(
                 if not known or p["series"] == label
             ]
     frame = pd.DataFrame(points, columns=tables.TABLES["endres_figure"].names()[1:])
-    frame["label"] = frame["label"].fillna("")
+    frame["label"] = frame["label"].astype(object).fillna("")
     frame.insert(0, "corpus", corpus.name)
     return pd.DataFrame(rows, columns=tables.TABLES["one_wrist"].names()), frame
 

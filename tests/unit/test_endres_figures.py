@@ -1,0 +1,277 @@
+"""Figures of Endres et al. 2013: what is drawn is what the points say, without warnings."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+
+from signkin import tables
+from signkin.figures import binning as drawing
+from signkin.figures.style import paper_style
+from signkin.pipeline import endres2013, endres_figures
+from signkin.pipeline.binning import FITTED, FITTED_MAP, read_posteriors, study, write_posteriors
+from signkin.pipeline.single_signs import (
+    POWERLAW,
+    RECORDED,
+    example_points,
+    single_signs,
+)
+from support.endres import arc, corpus_of, recording_of, settings
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Everything the figures are drawn from, of four recordings."""
+    names = ["a", "b", "c", "d"]
+    corpus = corpus_of(names)
+    own = settings(
+        bins=30, orders=[0, 1, 2, 3], fitted_orders=[1, 3], bootstrap_draws=100,
+        chance_trajectories=100,
+    )  # fmt: skip
+    recordings = [recording_of(name, arc(seed=i)) for i, name in enumerate(names)]
+    cut = single_signs(corpus, recordings, own, 3)
+    found = study(corpus, cut.trajectories, own["binning"], 2)
+    path = tmp_path_factory.mktemp("posteriors") / "p.parquet"
+    write_posteriors(path, found.fits)
+    rows = found.table("binning")
+    truths = endres2013.known_boundaries(cut.trajectories, found.table("fitted_truths"))
+    rates, lines = endres2013.hit_rates("tiny", rows, truths, own["binning"], 3)
+    return {
+        "x": {t.dataset: t.x for t in cut.trajectories if t.recording == "a"},
+        "points": example_points(corpus, recordings[0], own, 3),
+        "segments": cut.table("ground_truth", "m").query("recording == 'a'"),
+        "fits": read_posteriors([path], "a"),
+        "orders": endres2013.order_posteriors("tiny", rows),
+        "rates": rates,
+        "lines": lines,
+        "tests": endres2013.order_tests("tiny", rows),
+    }
+
+
+@pytest.fixture
+def drawn(made):
+    """Return a maker of one figure, drawn on a canvas and closed afterwards."""
+    m = made
+    ways = {
+        "fig01": lambda: endres_figures.fig01(m["points"], m["segments"], "m"),
+        "fig03": lambda: endres_figures.fig03(
+            "tiny", m["fits"], m["x"][RECORDED], m["orders"], m["rates"], m["lines"], "m"
+        ),
+        "fig04": lambda: endres_figures.fig04("tiny", m["fits"], m["x"][POWERLAW], "m"),
+        "fig05": lambda: endres_figures.fig05("tiny", m["rates"], m["lines"]),
+        "fig06": lambda: endres_figures.fig06("tiny", m["orders"], m["rates"], m["tests"]),
+        "fig07": lambda: endres_figures.fig07("tiny", m["orders"]),
+        "figA1": lambda: endres_figures.fig_a1("tiny", m["orders"], m["rates"], m["lines"]),
+    }
+    with paper_style():
+        yield lambda name: _rendered(ways[name]())
+    plt.close("all")
+
+
+def _rendered(one):
+    one.figure.canvas.draw()
+    return one
+
+
+def panels(figure):
+    """Return the axes that hold a panel: no colour bars, none switched off."""
+    return [ax for ax in figure.axes if ax.axison and ax.get_label() != "<colorbar>"]
+
+
+def has_data(ax):
+    return bool(ax.lines or ax.collections or ax.patches or ax.containers)
+
+
+@pytest.mark.parametrize("name", endres_figures.FIGURES)
+def test_every_panel_has_data_and_labels(drawn, name):
+    one = drawn(name)
+    for ax in panels(one.figure):
+        assert has_data(ax), ax.get_title(loc="left")
+    # Inner panels of a grid that shares axes are labelled at its edges.
+    labels = [(ax.get_xlabel(), ax.get_ylabel()) for ax in panels(one.figure)]
+    assert any(x for x, _ in labels) and any(y for _, y in labels)
+    if name in ("fig01", "fig03"):
+        assert all(x and y for x, y in labels)
+    assert "nan" not in one.caption.lower()
+    kind = "fig01_powerlaw" if name == "fig01" else "endres_figure"
+    assert list(one.data.columns) == tables.TABLES[kind].names()
+    if name != "fig01":
+        assert one.data[["x"]].notna().all().all()
+        assert set(one.data["corpus"]) == {"tiny"}
+
+
+def curves(ax):
+    return {
+        tuple(np.round(np.column_stack(line.get_data()).astype(float).ravel(), 9))
+        for line in ax.lines
+    }
+
+
+def as_curve(rows, x="x", y="y"):
+    return tuple(np.round(rows[[x, y]].to_numpy(dtype=float).ravel(), 9))
+
+
+def marks(ax):
+    """Return the points of all error bars, (x, y)."""
+    return {
+        (round(float(x), 9), round(float(y), 9))
+        for c in ax.containers
+        if hasattr(c, "has_yerr")
+        for x, y in zip(*c.lines[0].get_data(), strict=True)
+    }
+
+
+def points_of(rows):
+    return {(round(row.x, 9), round(row.y, 9)) for row in rows.itertuples() if pd.notna(row.y)}
+
+
+def bars(ax):
+    return sorted(round(patch.get_height(), 9) for patch in ax.patches)
+
+
+def test_figure_1_is_the_path_before_and_after(drawn):
+    one = drawn("fig01")
+    axes = {ax.get_title(loc="left")[0]: ax for ax in panels(one.figure)}
+    assert sorted(axes) == ["a", "b", "c", "d", "e"]
+    for name in "bce":
+        assert axes[name].get_xlabel() == "curvature (1/m)"
+        assert axes[name].get_ylabel() == "speed (m/s)"
+        assert axes[name].get_xscale() == axes[name].get_yscale() == "log"
+    for name in "ad":
+        assert axes[name].get_xlabel().endswith("(m)") and axes[name].get_ylabel().endswith("(m)")
+    before = one.data[one.data["dataset"] == RECORDED]
+    after = one.data[one.data["dataset"] == POWERLAW]
+    plane = [axes["a"].get_xlabel()[0], axes["a"].get_ylabel()[0]]
+    path = before[[f"{axis}_m" for axis in plane]].to_numpy()
+    steps = np.array(axes["a"].collections[0].get_segments())
+    assert steps[:, 0] == pytest.approx(path[:-1])
+    for ax, rows in ((axes["b"], before), (axes["c"], after)):
+        # Curvature has no value at the ends of the path after warping.
+        there = rows[rows["curvature_per_m"].notna() & (rows["speed_m_per_s"] > 0)]
+        shown = np.asarray(ax.collections[0].get_offsets())
+        assert shown == pytest.approx(there[["curvature_per_m", "speed_m_per_s"]].to_numpy())
+    assert len(axes["d"].lines) == 3 + 2  # segments, start and end
+    legend = [t.get_text() for t in axes["e"].get_legend().get_texts()]
+    assert len(legend) == 3 and all("β = " in text for text in legend)
+
+
+def test_figure_3_is_what_its_rows_say(drawn, made):
+    one = drawn("fig03")
+    a, b, c, d = panels(one.figure)
+    data = {name: one.data[one.data["panel"] == name] for name in "ABCD"}
+    assert a.get_ylabel() == "position, centred (m)" and a.get_xlabel() == "time (s)"
+    curve_rows = data["A"][data["A"]["series"] != "boundaries"]
+    for _, rows in curve_rows.groupby("series"):
+        assert as_curve(rows) in curves(a)
+    x = made["x"][RECORDED]
+    first = data["A"].query("series == 'x'")["y"].to_numpy()
+    assert first == pytest.approx(x[:, 0] - x[:, 0].mean())
+    dotted = sorted(line.get_xdata()[0] for line in a.lines if line.get_linestyle() == ":")
+    assert dotted == pytest.approx(data["A"].query("series == 'boundaries'")["x"].tolist())
+    assert bars(b) == pytest.approx(sorted(data["B"]["y"]), abs=1e-8)
+    shown = data["C"][~data["C"]["series"].str.startswith(("chance", "closed"))]
+    assert marks(c) == points_of(shown)
+    for series in ("chance", "closed form"):
+        assert as_curve(data["C"][data["C"]["series"] == series]) in curves(c)
+    assert marks(d) == points_of(data["D"])
+    orders = made["orders"]
+    recorded = orders[(orders["dataset"] == RECORDED) & (orders["signer"] == "all")]
+    assert data["D"]["y"].to_numpy() == pytest.approx(recorded["mean_explained_variance"])
+
+
+def test_figure_4_draws_densities_that_sum_to_the_expected_count(drawn, made):
+    one = drawn("fig04")
+    top, *lower = panels(one.figure)
+    assert top.get_ylabel().endswith("centred (m)")
+    assert lower[-1].get_xlabel() == "time (s)"
+    fits = made["fits"].query("dataset == 'powerlaw'").set_index("order")
+    assert [ax.get_title(loc="left").split(":")[0] for ax in lower] == ["order 0", "order 3"]
+    for ax, order in zip(lower, (0, 3), strict=True):
+        assert ax.get_ylabel() == "boundaries (1/s)"
+        rows = one.data[one.data["panel"] == f"order {order}"]
+        density = rows.query("series == 'density'")
+        assert as_curve(density) in curves(ax)
+        fit = fits.loc[order]
+        assert density["y"].sum() * fit["bin_s"] == pytest.approx(
+            fit["boundary_probability"].sum(), rel=1e-5
+        )
+        true = sorted(line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":")
+        assert true == pytest.approx(made["segments"]["end_s"].iloc[:2].tolist())
+    for order in (0, 3):
+        rows = one.data[one.data["panel"] == "trajectory"]
+        rows = rows[rows["series"] == f"order {order}"]
+        assert as_curve(rows) in curves(top)
+
+
+def test_figures_5_to_7_draw_each_group(drawn, made):
+    five = drawn("fig05")
+    for ax in panels(five.figure):
+        title = ax.get_title(loc="left")
+        name = title.removeprefix("signer ").replace("sign ", "").split(" (")[0]
+        rows = five.data[five.data["panel"] == name]
+        assert marks(ax) == points_of(rows[rows["series"] == name])
+        assert title.endswith("(n = 2)")
+    six = drawn("fig06")
+    top, bottom = panels(six.figure)
+    assert bars(top) == pytest.approx(
+        sorted(six.data.query("panel == 'order posterior'")["y"]), abs=1e-8
+    )
+    assert bottom.get_ylabel() == "hit rate / false positives a second (s)"
+    ratio = six.data.query("panel == 'ratio' and series == 'all'")
+    rates = made["rates"]
+    own = rates[(rates["dataset"] == POWERLAW) & (rates["signer"] == "all")]
+    pd.testing.assert_series_equal(
+        ratio["y"].reset_index(drop=True), own["hpfpps"].reset_index(drop=True), check_names=False
+    )
+    assert {y for _, y in points_of(six.data.query("panel == 'ratio'"))} == {
+        y for _, y in marks(bottom) if not np.isnan(y)
+    }
+    seven = drawn("fig07")
+    (ax,) = panels(seven.figure)
+    assert bars(ax) == pytest.approx(sorted(seven.data["y"]), abs=1e-8)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("polynomial order S", "P(S | data)")
+    assert seven.data.groupby("series")["y"].sum().to_numpy() == pytest.approx(1)
+    peak = int(seven.data.query("series == 'all'").set_index("x")["y"].idxmax())
+    assert f"Peak at order {peak};" in seven.caption
+
+
+def test_figure_a1_has_a_pair_of_panels_for_each_true_order(drawn):
+    one = drawn("figA1")
+    titled = [ax for ax in panels(one.figure) if ax.get_title(loc="left")]
+    assert [ax.get_title(loc="left") for ax in titled] == ["true order 1", "true order 3"]
+    others = [ax for ax in panels(one.figure) if ax not in titled]
+    for order, top, bottom in zip((1, 3), titled, others, strict=True):
+        rows = one.data[one.data["panel"] == f"P, order {order}"]
+        assert bars(top) == pytest.approx(sorted(rows["y"]), abs=1e-8)
+        assert set(rows["series"]) == set(endres_figures.KINDS.values())
+        hits = one.data[one.data["panel"] == f"hits, order {order}"]
+        shown = hits[~hits["series"].str.startswith(("chance", "closed"))]
+        assert marks(bottom) == points_of(shown)
+        assert order in {line.get_xdata()[0] for line in top.lines}
+    assert {FITTED, FITTED_MAP} == set(endres_figures.KINDS)
+
+
+def test_the_scheme_has_its_boundaries(drawn):
+    figure, rows = endres_figures.fig02()
+    figure.canvas.draw()
+    (ax,) = figure.axes
+    assert ax.get_xlabel().startswith("time: T = 15 bins") and "M = 2" in ax.get_xlabel()
+    dotted = {line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"}
+    assert dotted == {0, *rows["x"]}
+    assert list(rows.columns) == tables.TABLES["endres_figure"].names()
+
+
+def test_marks_on_one_spot_share_a_label():
+    rows = pd.DataFrame(
+        [("p", "s", 0.5, 0.5, None, None, "1"), ("p", "s", 0.51, 0.502, 0.1, 0.1, "2"),
+         ("p", "s", 2.0, 0.5, None, None, "3")],
+        columns=["panel", "series", "x", "y", "x_error", "y_error", "label"],
+    ).astype({"x_error": float, "y_error": float})  # fmt: skip
+    figure, ax = plt.subplots()
+    drawing.plot_hit_rates(rows, ax=ax)
+    figure.canvas.draw()
+    assert sorted(t.get_text() for t in ax.texts) == ["1,2", "3"]
+    assert ax.get_xlim()[1] > 2.0 and ax.get_ylim()[1] > 1.0
+    plt.close(figure)
