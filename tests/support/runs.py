@@ -38,10 +38,35 @@ def environment(data: Path | None) -> dict[str, str]:
     return env
 
 
+# The same rules on less: fewer settings, draws and fitted recordings than the shipped ones.
+QUICK_BINNING = {
+    "fitted_recordings": 6,
+    "bootstrap_draws": 200,
+    "chance_trajectories": 400,
+    "sensitivity": {
+        "recordings": 2,
+        "dof": [None],
+        "noise": ["sensor expected", "data plain"],
+        "concentration": [0.1],
+        "time_unit": ["bin", "second"],
+        "bins": [100],
+    },
+}
+
+
+def merged(old: dict, new: dict) -> dict:
+    """Return a dictionary with another's values put in, level by level."""
+    out = dict(old)
+    for key, value in new.items():
+        nested = isinstance(value, dict) and isinstance(old.get(key), dict)
+        out[key] = merged(old[key], value) if nested else value
+    return out
+
+
 def prepare(folder: Path, **changes: object) -> Path:
-    """Write config.yaml of a run: the shipped one with changes (`corpora=[...]`)."""
+    """Write config.yaml of a run: the shipped one, quicker, with changes (`corpora=[...]`)."""
     config = yaml.safe_load((ROOT / "config.yaml").read_text())
-    config.update(changes)
+    config = {**merged(config, {"binning": QUICK_BINNING}), **changes}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "config.yaml").write_text(yaml.safe_dump(config))
     return folder

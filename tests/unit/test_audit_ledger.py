@@ -260,6 +260,72 @@ def test_claims_about_a_users_own_table_need_no_code(study, check, verdict):
     assert "papers/mine/claims.yaml, line" in nowhere["note"]  # misspelt, perhaps
 
 
+CHANCE = {
+    "order": [0, 1, 2, 3],
+    "rate": [0.5, 0.6, 0.3, 0.9],
+    "low": [0.1, 0.2, 0.2, np.nan],
+    "high": [0.4, 0.5, 0.3, np.nan],  # order 2 lies on the line, order 3 has none
+}
+
+
+@pytest.mark.parametrize(
+    "extra, verdict, words",
+    [
+        ({}, "fails", "above chance in 2 of 4 (order), not in 2; no chance interval for 3"),
+        ({"where": "order < 2"}, "holds", "0: 0.50 (0.10 to 0.40), 1: 0.60"),
+        ({"where": "order in [0, 3]"}, "not testable", "no chance interval for order 3"),
+        ({"all_of": False, "more_than": 0.4}, "holds", "2 of 4"),
+        ({"all_of": False, "more_than": 0.5}, "not testable", "no chance interval"),  # 3 decides
+        ({"all_of": False, "more_than": 0.75}, "fails", "2 of 4"),  # whatever 3 is
+        ({"by": ["sign"]}, "not testable", "lacks the columns sign"),
+    ],
+)
+def test_hit_rates_are_set_against_chance_order_by_order(study, extra, verdict, words):
+    check = {"check": "beyond_chance", "table": "t", "value": "rate", "low": "low", "high": "high",
+             "by": ["order"], **extra}  # fmt: skip
+    here, _ = study(check, t=CHANCE)
+    assert here["verdict"] == verdict
+    assert words in here["note"]
+
+
+def test_what_stands_beside_a_claim_has_no_say(tmp_path):
+    paper = tmp_path / "papers/mine"
+    paper.mkdir(parents=True)
+    good = {"check": "every", "table": "t", "holds": "x > 0", "reads": "So."}
+    beside = {"check": "every", "table": "other/t", "holds": "x < 0", "reads": "Too.",
+              "beside": True}  # fmt: skip
+    claim = {"location": "p. 1", "claim": "It is so.", "needs": "a table",
+             "published": {"missing": "nothing is printed"}}  # fmt: skip
+    claims = [
+        {"id": "C1", **claim, "corpora": {"checks": [good, beside]}},
+        {"id": "C2", **claim, "corpora": {"checks": [beside], "missing": "our own rule"}},
+    ]
+    content = {"paper": "Me 2026", "study": "mine", "claims": claims}
+    (paper / "claims.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+    results = tmp_path / "results"
+    files = [write(results / s / "here", "t", {"x": [1.0]}) for s in ("mine", "other")]
+    ledger = audit([read_paper(paper)], evidence_for("mine", {"here": False}, files, results))
+    found = ledger.claims[ledger.claims["evidence"] == "here"].set_index("id")
+    assert found["verdict"].to_dict() == {"C1": "holds", "C2": "not testable"}
+    assert found.loc["C2", "note"] == "our own rule"
+    assert found.loc["C1", "recomputed"] == "1 of 1 rows"
+    checks = ledger.checks.query("evidence == 'here'")
+    assert checks["counts"].tolist() == ["yes", "beside the claim", "beside the claim"]
+    assert checks["verdict"].tolist() == ["holds", "fails", "fails"]
+    assert checks["source"].iloc[-1] == "results/other/here/t.csv"
+
+
+def test_our_own_rule_confirms_no_claim(root, tmp_path):
+    corpus = tmp_path / "endres2013/made"
+    truth = {"recording": ["r"], "beta": [-0.3], "r_squared": [0.99], "duration_s": [0.5]}
+    file = write(corpus, "ground_truth", truth)
+    evidence = evidence_for("endres2013", {"made": False}, [file], tmp_path)
+    found = audit([read_paper(root / "papers/endres2013")], evidence).claims
+    row = found[(found["id"] == "E06") & (found["evidence"] == "made")].iloc[0]
+    assert row["verdict"] == "not testable"
+    assert "least_r_squared" in row["note"]
+
+
 def test_the_bootstrap_interval_is_that_of_the_mean(study):
     x = np.random.default_rng(1).normal(5, 2, 400)
     here, _ = study({"check": "measure", "table": "t", "value": "x", "above": 0}, t={"x": x})

@@ -18,6 +18,7 @@ with job(snakemake):
         [read_paper(folder) for folder in snakemake.params.papers],
         tables.read_table(snakemake.input.claims, "claims"),
         tables.read_table(snakemake.input.checks, "checks"),
+        {Path(file).parent.name: Path(file) for file in snakemake.input.wrists},
         page_file.parent,
     )
     page_file.write_text(render(page, page_file.parent), encoding="utf-8")

@@ -6,8 +6,8 @@ with job(snakemake):
     import matplotlib.pyplot as plt
 
     from signkin import tables
-    from signkin.figures.overview import plot_overview
-    from signkin.figures.style import WIDTH_IN, paper_style, save
+    from signkin.figures.overview import plot_overview, size
+    from signkin.figures.style import paper_style, save
     from signkin.pipeline import overview
 
     source, out = snakemake.input, snakemake.output
@@ -16,6 +16,6 @@ with job(snakemake):
     rules = overview.layout(overview.parse_rule_graph(dot), notes)
     tables.write_table(rules, out.csv, "overview")
     with paper_style():
-        figure, ax = plt.subplots(figsize=(WIDTH_IN * 1.3, 4.4))
+        figure, ax = plt.subplots(figsize=size(rules))
         plot_overview(rules, ax=ax)
         save(figure, out.svg, out.pdf)

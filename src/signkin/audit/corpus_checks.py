@@ -321,6 +321,52 @@ def every(
 
 
 @on_corpus
+def beyond_chance(
+    context: OnCorpus,
+    table: str,
+    value: str,
+    low: str,
+    high: str,
+    by: Sequence[str],
+    where: str = "",
+    more_than: float = 0.0,
+    all_of: bool = True,
+) -> list[Finding]:
+    """A share lies above what chance gives, row by row.
+
+    low, high: columns with the 2.5 and 97.5 % of draws by chance. by: columns that name a row.
+    all_of: it holds if every row is above; else if more than the share `more_than` is. Rows
+    without a chance interval count neither way: where they would decide, it is not testable.
+    """
+    frame = _rows(context, table, where)
+    unknown = [name for name in by if name not in frame.columns]
+    if unknown:
+        raise Missing(f"{table}.csv lacks the columns {listed(unknown)}")
+    numbers = pd.DataFrame(
+        {n: _numbers(context, table, frame, v) for n, v in (("x", value), ("a", low), ("b", high))}
+    ).astype(float)
+    names = [" ".join(map(_label, row)) for row in frame[list(by)].to_numpy(dtype=object)]
+    told, above, unsure = [], [], []
+    for name, row in zip(names, numbers.itertuples(), strict=True):
+        if np.isnan([row.x, row.a, row.b]).any():
+            unsure.append(name)
+            continue
+        told.append(f"{name}: {row.x:.2f} ({row.a:.2f} to {row.b:.2f})")
+        if row.x > row.b:
+            above.append(name)
+    least = len(names) if all_of else int(np.floor(more_than * len(names))) + 1
+    if len(above) < least <= len(above) + len(unsure):
+        raise Missing(f"{table}.csv has no chance interval for {'/'.join(by)} {listed(unsure)}")
+    under = [name for name in names if name not in above and name not in unsure]
+    why = f"above chance in {len(above)} of {len(names)} ({'/'.join(by)})"
+    why += f", not in {listed(under, 9)}" if under else ""
+    why += f"; no chance interval for {listed(unsure, 9)}" if unsure else ""
+    return [Finding(HOLDS if len(above) >= least else FAILS, f"{why}. Share (chance): {', '.join(told)}",
+                    recomputed=f"{len(above)} of {len(names)} above chance",
+                    source=context.source(table))]  # fmt: skip
+
+
+@on_corpus
 def order(
     context: OnCorpus,
     table: str,
@@ -351,8 +397,8 @@ def order(
         raise Missing(f"{table}.csv has no number for {key} {listed(lacking)}")
     pairs = ordered_pairs(list(values), parts[0], parts[1], parts[2:])
     wrong = [(a, b) for a, b in pairs if not values[a] < values[b]]
-    told = ", ".join(f"{name} {shown(values[name], 4)}" for name in names)
-    why = f"{key}: {told}"
+    told = ", ".join(f"{name}: {shown(values[name], 4)}" for name in names)
+    why = f"by {key}, {told}"
     if wrong:
         faults = [f"{a} ({shown(values[a], 4)}) is not under {b} ({shown(values[b], 4)})"
                   for a, b in wrong]  # fmt: skip

@@ -92,15 +92,17 @@ def evidence_for(
     """Return the corpora with the tables that a study's claims may read.
 
     corpora: name -> whether simulated. files: result tables, `results/<study>/<corpus>/*.csv`
-    and `results/<corpus>/*.csv`; the study's own go before the shared ones.
+    and `results/<corpus>/*.csv`; the study's own go before the shared ones. Those of another
+    study are called `<study>/<table>`.
     """
     there: dict[str, dict[str, Path]] = {name: {} for name in corpora}
     for path in sorted(map(Path, files), key=lambda p: p.as_posix()):
         if path.suffix != ".csv" or not path.is_relative_to(results):
             continue
         parts = path.relative_to(results).parts
-        if len(parts) == 3 and parts[0] == study and parts[1] in there:
-            there[parts[1]][path.stem] = path
+        if len(parts) == 3 and parts[1] in there:
+            name = path.stem if parts[0] == study else f"{parts[0]}/{path.stem}"
+            there[parts[1]][name] = path
         elif len(parts) == 2 and parts[0] in there:
             there[parts[0]].setdefault(path.stem, path)
     return [Evidence(name, simulated, there[name], results) for name, simulated in corpora.items()]
@@ -128,6 +130,7 @@ def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
 
 def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> tuple[str, str]:
     """Return the verdict over all checks of a claim, and what is to be said about it."""
+    done = [d for d in done if not d.check.beside]
     if not done:
         missing = claim.published_missing if evidence is None else claim.corpora_missing
         return NOT_TESTABLE, missing
@@ -165,7 +168,7 @@ def _told(done: _Done) -> str:
 def _claim_row(
     lead: Mapping[str, str], claim: Claim, done: Sequence[_Done], verdict: str, note: str
 ) -> dict[str, str]:
-    single = [f for d in done if len(d.findings) <= 3 for f in d.findings]
+    single = [f for d in done if not d.check.beside and len(d.findings) <= 3 for f in d.findings]
     sources = list(dict.fromkeys(f.source for d in done for f in d.findings if f.source))
     printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
     return {
@@ -186,6 +189,7 @@ def _check_rows(lead: Mapping[str, str], done: _Done) -> list[dict[str, str]]:
         {
             **lead,
             "check": done.check.name,
+            "counts": "beside the claim" if done.check.beside else "yes",
             "item": f.item,
             "reads": done.check.reads,
             "printed": f.printed,

@@ -15,7 +15,14 @@ import yaml
 from signkin.errors import SignkinError, listed
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow" / "schemas" / "claims.schema.yaml"
-OWN = ("check", "reads", "decisive", "only", "gate")  # keys of a check that are no arguments of it
+OWN = (
+    "check",
+    "reads",
+    "decisive",
+    "only",
+    "gate",
+    "beside",
+)  # keys of a check that are no arguments of it
 GUIDE = "See docs/claims.md."
 
 
@@ -54,6 +61,7 @@ class Check:
     decisive: bool
     only: str  # `simulated` or `real`: corpora it can be run on; empty for all
     gate: bool  # without it the claim cannot be tested
+    beside: bool  # told with the claim, without a say in its verdict
     line: int
 
 
@@ -197,6 +205,7 @@ def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) ->
                     decisive=c.get("decisive", True),
                     only=c.get("only", ""),
                     gate=c.get("gate", False),
+                    beside=c.get("beside", False),
                     line=lines[("claims", i, side, "checks", j)],
                 )
                 for j, c in enumerate(claim[side].get("checks", []))

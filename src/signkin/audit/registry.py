@@ -115,7 +115,7 @@ def _read(path: Path, name: str) -> pd.DataFrame:
 
 
 def _writes(paths: str, name: str) -> bool:
-    return any(Path(p.strip()).name == f"{name}.csv" for p in paths.split(","))
+    return any(Path(p.strip()).name == f"{Path(name).name}.csv" for p in paths.split(","))
 
 
 def _guessed(path: Path) -> pd.DataFrame:
@@ -128,7 +128,7 @@ def _guessed(path: Path) -> pd.DataFrame:
         filled = texts[texts != ""]
         numbers = pd.to_numeric(filled, errors="coerce")
         if len(filled) and numbers.notna().all():
-            frame[column] = pd.to_numeric(texts.replace("", "nan"))
+            frame[column] = pd.to_numeric(texts, errors="coerce")  # empty: missing
         elif len(filled) and filled.isin(["True", "False"]).all():
             frame[column] = texts == "True"
     return frame

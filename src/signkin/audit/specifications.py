@@ -23,7 +23,8 @@ def specifications(
     """Return one row a specification, in order of the estimate.
 
     Columns: the choices by their names in figures, as text (`–` where one plays no part),
-    estimate, reference (NaN without one), holds (bool). Rows without an estimate are left out.
+    estimate, reference (NaN without one), holds (bool). Rows without an estimate, or without the
+    reference it is set against, are left out.
     """
     wanted = [*choices, estimate, "holds", *([reference] if reference else [])]
     lacking = [column for column in wanted if column not in table.columns]
@@ -35,7 +36,7 @@ def specifications(
     out["estimate"] = table[estimate].astype(float)
     out["reference"] = table[reference].astype(float) if reference else np.nan
     out["holds"] = table["holds"].astype(str).isin(["True", "yes", "1"])
-    out = out[out["estimate"].notna()]
+    out = out[out["estimate"].notna() & (out["reference"].notna() | (not reference))]
     keys = ["estimate", *choices.values()]
     return out.sort_values(keys, kind="stable").reset_index(drop=True)
 
@@ -82,7 +83,9 @@ def by_choice(
             )
     rows[0]["note"] = _told(specs, decided)
     if left_out:
-        rows[0]["note"] = f"{rows[0]['note']}; {left_out} more have no estimate"
+        rows[0]["note"] = (
+            f"{rows[0]['note']}; {left_out} more have no estimate, or nothing to set it against"
+        )
     out = pd.DataFrame(rows)
     out.insert(0, "paper", paper)
     out.insert(1, "claim", claim)

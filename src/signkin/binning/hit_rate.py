@@ -421,13 +421,14 @@ def chance_line(
     flat = np.concatenate(truths)
     hit = np.empty((len(rates), draws))
     false = np.empty((len(rates), draws))
+    there = true > 0
+    repeated = np.tile(flat, draws), np.tile(true, draws)
     for r, rate in enumerate(rates):
-        for d in range(draws):
-            events = generator.poisson(rate * durations)
-            times = generator.uniform(size=events.sum()) * np.repeat(durations, events)
-            hits = _hits(times, events, flat, true, window_s + TOLERANCE_S)
-            hit[r, d] = np.mean(hits[true > 0] / true[true > 0])
-            false[r, d] = np.mean((events - hits) / durations)
+        events = generator.poisson(rate * durations, size=(draws, len(durations))).ravel()
+        times = generator.uniform(size=events.sum()) * np.repeat(np.tile(durations, draws), events)
+        hits = _hits(times, events, *repeated, window_s + TOLERANCE_S).reshape(draws, -1)
+        hit[r] = np.mean(hits[:, there] / true[there], axis=1)
+        false[r] = np.mean((events.reshape(draws, -1) - hits) / durations, axis=1)
     low, high = np.percentile(hit, INTERVAL, axis=1)
     return ChanceLine(
         rate_per_s=rates,

@@ -73,9 +73,15 @@ def plot_segmentations(pairs: pd.DataFrame, hand: str, unit: str, *, ax: Axes) -
     y1, y2 = chosen["manual_duration_s"], chosen["refined_duration_s"]
     ends = np.stack([np.column_stack([x1, y1]), np.column_stack([x2, y2])], axis=1)
     size = 9 if len(chosen) <= 200 else 5
-    ax.add_collection(LineCollection(list(ends), colors="0.5", lw=0.7, zorder=1))
-    ax.scatter(x1, y1, s=size, marker="D", color=RIGHT, lw=0, label="manual", zorder=2)
-    ax.scatter(x2, y2, s=size + 2, marker="o", color=LEFT, lw=0, label="refined", zorder=3)
+    cloud = len(chosen) > 200  # saved as a picture, not one by one
+    ax.add_collection(LineCollection(list(ends), colors="0.5", lw=0.7, zorder=1, rasterized=cloud))
+    for x, y, more, marker, colour, label in (
+        (x1, y1, 0, "D", RIGHT, "manual"), (x2, y2, 2, "o", LEFT, "refined"),
+    ):  # fmt: skip
+        ax.scatter(
+            x, y, s=size + more, marker=marker, color=colour, lw=0, label=label,
+            zorder=2 + more / 2, rasterized=cloud,
+        )  # fmt: skip
     ax.axhline(0, color="0.85", lw=0.8, zorder=0)
     ax.set(
         xlabel=f"mean Euclidean distance, {hand} arm ({unit})",

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,6 +15,12 @@ from signkin.figures.style import ACCENT, LEFT, MANUAL, NEUTRAL, RIGHT
 
 COLOURS = (RIGHT, MANUAL, ACCENT, LEFT)
 MARKERS = ("v", "o", "^", "s", "D")
+PRINTED: dict[str, Any] = {
+    "marker": "o", "ms": 8, "mfc": "none", "mec": "0.1", "mew": 0.9, "ls": "none", "zorder": 4,
+}  # fmt: skip
+DEFAULT: dict[str, Any] = {
+    "marker": "*", "ms": 13, "mfc": "white", "mec": "0.1", "mew": 0.9, "ls": "none", "zorder": 3,
+}  # fmt: skip
 
 
 def plot_settings(
@@ -27,19 +35,18 @@ def plot_settings(
     colours = _kinds(points[colour], COLOURS)
     shapes = _kinds(points[marker], MARKERS)
     spread = np.linspace(-0.33, 0.33, max(len(colours) * len(shapes), 2))
-    order = [(c, m) for c in colours for m in shapes]
-    for row in points.itertuples():
-        value = getattr(row, column)
-        if pd.isna(value):
-            continue
-        c, m = str(getattr(row, colour)), str(getattr(row, marker))
-        x = groups.index(row.group) + spread[order.index((c, m))]
-        if row.printed == "yes":
-            ax.plot(x, value, "o", ms=8, mfc="none", mec="0.1", mew=0.9, zorder=4)
-        if row.default == "yes":
-            ax.plot(x, value, "*", ms=13, mfc="white", mec="0.1", mew=0.9, zorder=3)
+    places = {(c, m): x for (c, m), x in zip(product(colours, shapes), spread, strict=False)}
+    for (c, m), place in places.items():
+        kind = (points[colour].astype(str) == c) & (points[marker].astype(str) == m)
+        here = points[kind & points[column].notna()]
+        at = here["group"].map(groups.index) + place
+        for flag, ring in (("printed", PRINTED), ("default", DEFAULT)):
+            told = here[flag] == "yes"
+            if told.any():
+                ax.plot(at[told], here.loc[told, column], **ring)
         ax.plot(
-            x, value, shapes[m], ms=3.6, color=colours[c], mec="none", alpha=0.9, zorder=5,
+            at, here[column], shapes[m], ms=3.6, color=colours[c], mec="none", alpha=0.9, zorder=5,
+            rasterized=True,  # hundreds of settings in each of many panels
         )  # fmt: skip
     if paper is not None:
         ax.axhline(paper, color="0.3", ls="--", lw=0.9, zorder=1)
@@ -62,10 +69,8 @@ def handles(
         Line2D([], [], ls="none", marker=m, ms=4, color=NEUTRAL, label=f"{names[marker]} {value}")
         for value, m in _kinds(points[marker], MARKERS).items()
     ]
-    ring = {"marker": "o", "ms": 8, "mfc": "none", "mec": "0.1", "ls": "none"}
-    star = {"marker": "*", "ms": 11, "mfc": "white", "mec": "0.1", "ls": "none"}
-    out.append(Line2D([], [], label="as printed", **ring))  # type: ignore[arg-type]
-    out.append(Line2D([], [], label="default", **star))  # type: ignore[arg-type]
+    out.append(Line2D([], [], label="as printed", **PRINTED))
+    out.append(Line2D([], [], label="default", **{**DEFAULT, "ms": 11}))
     out.append(Line2D([], [], color="0.3", ls="--", lw=0.9, label="paper"))
     return out
 

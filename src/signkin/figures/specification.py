@@ -8,8 +8,13 @@ from textwrap import wrap
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from numpy.typing import NDArray
 
 from signkin.figures.style import ACCENT, NEUTRAL, PALE, RIGHT
+
+CLOUD = 150  # points of one panel that are saved as a picture, not one by one
 
 
 def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: Axes) -> Axes:
@@ -20,20 +25,35 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
     at = np.arange(len(specs))
     holds = specs["holds"].to_numpy(dtype=bool)
     size = float(np.clip(900 / max(len(specs), 1), 5, 22))
+    cloud = len(specs) > CLOUD
     values = specs["estimate"].to_numpy(dtype=float)
     bounds = specs["reference"].to_numpy(dtype=float)
     if np.isfinite(bounds).any():
-        ax.scatter(at, bounds, marker="_", s=2 * size, color=ACCENT, lw=1, label="bound")
+        ax.scatter(
+            at, bounds, marker="_", s=2 * size, color=ACCENT, lw=1, label="bound", rasterized=cloud
+        )
     elif zero:
         ax.axhline(0, color="0.6", lw=0.8)
-    ax.scatter(at[holds], values[holds], s=size, color=RIGHT, lw=0, label="holds")
+    ax.scatter(at[holds], values[holds], s=size, color=RIGHT, lw=0, label="holds", rasterized=cloud)
     ax.scatter(
         at[~holds], values[~holds], s=size, facecolor="white", edgecolor=NEUTRAL, lw=0.7,
-        label="fails",
+        label="fails", rasterized=cloud,
     )  # fmt: skip
     ax.set(ylabel="\n".join(wrap(label, 22)), xlim=(-1, len(specs)))
     ax.tick_params(axis="x", labelbottom=False, length=0)
     return ax
+
+
+def _bars(at: NDArray[np.intp], y: int, colour: str) -> PathPatch:
+    """Return bars at places, as one shape; each keeps to its place, neighbours are one bar."""
+    breaks = np.flatnonzero(np.diff(at) > 1)
+    left = np.append(at[0], at[breaks + 1]) - 0.5
+    right = np.append(at[breaks], at[-1]) + 0.5
+    low, high = np.full(len(left), y - 0.36), np.full(len(left), y + 0.36)
+    corners = [(left, low), (right, low), (right, high), (left, high), (left, low)]
+    vertices = np.stack([np.column_stack(corner) for corner in corners], axis=1)
+    codes = [Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY]
+    return PathPatch(Path(vertices.reshape(-1, 2), codes * len(left)), fc=colour, lw=0)
 
 
 def plot_choices(specs: pd.DataFrame, levels: Mapping[str, Sequence[str]], *, ax: Axes) -> Axes:
@@ -53,7 +73,8 @@ def plot_choices(specs: pd.DataFrame, levels: Mapping[str, Sequence[str]], *, ax
     for y, (choice, value) in enumerate(rows):
         at = np.flatnonzero(specs[choice].to_numpy() == value)
         for part, colour in ((holds[at], RIGHT), (~holds[at], NEUTRAL)):
-            ax.vlines(at[part], y - 0.36, y + 0.36, color=colour, lw=0.9)
+            if part.any():
+                ax.add_patch(_bars(at[part], y, colour))
     for edge in edges[1:]:
         ax.axhline(edge - 0.5, color=PALE, lw=0.6)
     ax.set_yticks(np.arange(len(rows)), labels)

@@ -30,6 +30,7 @@ def paper_style() -> Iterator[None]:
     settings = {
         "svg.hashsalt": "signkin",
         "pdf.fonttype": 42,
+        "savefig.dpi": 250,  # of what is rasterized: clouds of points, nothing else
         "font.family": "DejaVu Sans",
         "font.size": 8.5,
         "axes.titlesize": 9,

@@ -8,8 +8,9 @@ from pathlib import Path
 import pandas as pd
 
 import signkin
-from signkin.audit.ledger import PRINT
+from signkin.audit.ledger import PRINT, SIMULATED
 from signkin.audit.paper import Claim, Curve, Paper
+from signkin.pipeline.two_papers_report import two_papers
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.tables import read_table
 
@@ -18,12 +19,22 @@ NOTHING = "not testable"
 
 
 def audit_page(
-    papers: Sequence[Paper], claims: pd.DataFrame, checks: pd.DataFrame, folder: Path
+    papers: Sequence[Paper],
+    claims: pd.DataFrame,
+    checks: pd.DataFrame,
+    wrists: Mapping[str, Path],
+    folder: Path,
 ) -> Page:
-    """Return the page of the audit; folder: results/audit, with its tables and `curves`."""
+    """Return the page of the audit; folder: results/audit, with its tables and `curves`.
+
+    wrists: corpus -> its table `one_wrist`, with both papers' cuts.
+    """
     sections = [_guide(), _overview(papers, claims, folder)]
     for paper in papers:
         sections.append(_claims(paper, claims, checks, folder))
+    kinds = dict(zip(claims["evidence"], claims["evidence_kind"] == SIMULATED, strict=True))
+    if both := two_papers(wrists, kinds):
+        sections.append(both)
     curves = list(_curves(papers, folder / "curves"))
     if curves:
         sections.append(_rest_on(curves))
@@ -81,6 +92,8 @@ def _guide() -> Section:
             "Not testable: a number, a table or a definition is missing; the note says which. "
             "Where a claim's words leave room ('near', 'visibly'), the reading beside each check "
             "says how they were taken.",
+            "Beside a claim stand findings without a say in its verdict: cross-checks that no "
+            "paper claims, and rules that our own programs keep, which cannot confirm anything.",
         ),
     )
 
@@ -174,6 +187,7 @@ COLUMNS = {
     "evidence": ("evidence", ""),
     "item": ("row", ""),
     "reads": ("how it is read", ""),
+    "counts": ("in the verdict", ""),
     "printed": ("printed", ""),
     "recomputed": ("recomputed", ""),
     "interval": ("interval", ""),
@@ -193,19 +207,33 @@ def _claim(
             continue
         about = {"evidence": _heading(str(verdict.evidence), str(verdict.evidence_kind))}
         found = checks[checks["evidence"] == verdict.evidence]
-        if found.empty:
-            rows.append({**about, "verdict": NOTHING, "why": verdict.note})
+        if (found["counts"] != "yes").all():  # none, or none that counts
+            rows.append({**about, "verdict": NOTHING, "why": verdict.note, "counts": ""})
         for _, part in found.groupby((found["reads"] != found["reads"].shift()).cumsum()):
             if len(part) <= FEW:
                 rows += [{**row, **about} for row in part.to_dict("records")]
             else:
                 rows.append({**part.iloc[0].to_dict(), **about, **_many(part)})
+    rows = _by_reading(rows)
+    if all(row["counts"] in ("", "yes") for row in rows):
+        rows = [{**row, "counts": ""} for row in rows]
     columns = {name: head for name, head in COLUMNS.items() if name != "printed"}
     caption = f"Section {claim.location}." if claim.location[0].isdigit() else f"{claim.location}."
     printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
     caption += f" Printed: {printed}." if printed else ""
     caption += f" A corpus needs: {claim.needs}."
     return _view(claim.id, claim.claim, caption, rows, columns, folder)
+
+
+def _by_reading(rows: Sequence[Mapping[str, object]]) -> list[dict[str, object]]:
+    """Return the rows check by check, what is not testable first; a reading is told once."""
+    readings = list(dict.fromkeys(str(row.get("reads", "")) for row in rows))
+    readings.sort(key=bool)  # those without one first
+    out: list[dict[str, object]] = []
+    for reading in readings:
+        same = [dict(row) for row in rows if str(row.get("reads", "")) == reading]
+        out += [same[0], *({**row, "reads": "as above"} if reading else row for row in same[1:])]
+    return out
 
 
 def _many(part: pd.DataFrame) -> dict[str, str]:

@@ -138,6 +138,9 @@ class Study:
 
     def _ready(self, item: Data) -> tuple[Floats, Prior]:
         where = f"recording {item.source.recording}"
+        gaps = int((~np.isfinite(item.x)).any(axis=1).sum())
+        if gaps:
+            raise SignkinError(f"{gaps} bins without a position", file=where, expected="none")
         x = item.x - item.x.mean(axis=0)
         if not (x.std(axis=0) > 0).any():
             raise SignkinError("all bins are equal", file=where, expected="a movement")

@@ -104,7 +104,9 @@ def _drawn(
     for ax in axes[0]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    figure.legend(handles.values(), handles.keys(), loc="outside lower right", ncols=3)
+    figure.legend(
+        handles.values(), handles.keys(), loc="outside lower right", ncols=3, markerscale=1.6
+    )
     points = pd.concat(
         [found.assign(corpus=corpus) for corpus, found in specs.items()], ignore_index=True
     )

@@ -81,25 +81,28 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
     rest = frame[frame["test"] != "in words"]
     pairs = rest["test"].isin(PAIRWISE)
     distance = rest["question"] == "distance"
+    rest = rest.assign(
+        tested=[_statistic(row) for row in rest.itertuples()],
+        sized=[_effect(row) for row in rest.itertuples()],
+        powered=[_power(row) for row in rest.itertuples()],
+    )
     columns = {
         "question": ("question", ""),
         "outliers": ("outliers", ""),
         "test": ("test", ""),
         "comparison": ("of", ""),
-        "statistic_name": ("statistic", ""),
-        "statistic": ("value", ".3f"),
-        "df1": ("df", ".3g"),
-        "df2": ("df of error", ".4g"),
-        "p": ("p", ".4f"),
-        "effect_name": ("effect", ""),
-        "effect": ("size", ".3f"),
+        "tested": ("statistic", ""),
+        "p": ("p", ".2g"),
+        "sized": ("effect [interval]", ""),
+        "n": ("n", "d"),
+        "powered": ("power", ""),
+        "statistic": ("difference (s)", ".3f"),
+        "effect": ("value", ".3f"),
         "effect_low": ("low", ".3f"),
         "effect_high": ("high", ".3f"),
-        "n": ("n", "d"),
-        "power": ("power", ".2f"),
-        "power_for": ("for", ""),
         "note": ("note", ""),
     }
+    tests = [n for n in columns if n not in ("statistic", "effect", "effect_low", "effect_high")]
     level = f"{1 - chosen['alpha']:.0%}"
     yield TableView(
         label="",
@@ -110,7 +113,7 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
         "means). A dash is a number that the test does not have, or that the note says is "
         f"missing.{warning}",
         frame=rest[~pairs & ~distance],
-        columns=columns,
+        columns={name: columns[name] for name in tests},
         file=path,
         most=12,
     )
@@ -125,8 +128,7 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
         frame=small,
         columns={
             name: columns[name]
-            for name in ("outliers", "test", "comparison", "statistic", "p", "effect", "effect_low",
-                         "effect_high", "n", "note")
+            for name in ("outliers", "test", "comparison", "statistic", "p", "sized", "n", "note")
         },
         file=path,
         most=6,
@@ -146,6 +148,26 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
         file=path,
         most=12,
     )  # fmt: skip
+
+
+def _statistic(row: Any) -> str:
+    """Return `F(3, 85) = 1.234`, empty where the test has no statistic."""
+    if pd.isna(row.statistic):
+        return ""
+    degrees = ", ".join(f"{df:.4g}" for df in (row.df1, row.df2) if pd.notna(df))
+    return f"{row.statistic_name}{f'({degrees})' if degrees else ''} = {row.statistic:.3f}"
+
+
+def _effect(row: Any) -> str:
+    """Return `eta squared 0.106 [0.000, 0.130]`."""
+    if pd.isna(row.effect):
+        return ""
+    ends = [f"{end:.3f}" for end in (row.effect_low, row.effect_high) if pd.notna(end)]
+    return f"{row.effect_name} {row.effect:.3f}" + (f" [{', '.join(ends)}]" if ends else "")
+
+
+def _power(row: Any) -> str:
+    return "" if pd.isna(row.power) else f"{row.power:.2f} for {row.power_for}"
 
 
 # --- models ----------------------------------------------------------------------------------
@@ -180,7 +202,6 @@ def _models(
             "gain_high_s": ("high", "+.4f"),
             "rmse_s": ("RMSE (s)", ".4f"),
             "bias_s": ("bias (s)", "+.4f"),
-            "longest_s": ("longest (s)", ".2f"),
             "share_above_bound": (f"above {chosen['highest_s']:g} s", ".0%"),
             "note": ("note", ""),
         },

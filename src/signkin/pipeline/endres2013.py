@@ -66,13 +66,14 @@ def order_posteriors(corpus: str, binning: pd.DataFrame) -> pd.DataFrame:
 
 def rates_by_order(part: pd.DataFrame) -> dict[int, list[HitRate]]:
     """Return the hit rates of a group's trajectories, in the same sequence for each order."""
-    return {
-        int(order): [
-            HitRate(int(row.hits), int(row.misses), int(row.false_positives), row.duration_s)
-            for row in rows.sort_values("recording").itertuples()
-        ]
-        for order, rows in part.groupby("order")
-    }
+    columns = ["order", "hits", "misses", "false_positives", "duration_s"]
+    out: dict[int, list[HitRate]] = {}
+    for order, hits, misses, false, duration in zip(
+        *(part.sort_values(["order", "recording"])[c] for c in columns), strict=True
+    ):
+        rate = HitRate(int(hits), int(misses), int(false), float(duration))
+        out.setdefault(int(order), []).append(rate)
+    return out
 
 
 Truths = Mapping[tuple[str, int | None, str], Sequence[float]]

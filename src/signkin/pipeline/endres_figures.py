@@ -31,7 +31,7 @@ from signkin.pipeline.single_signs import (
 FIGURES = ("fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1")
 EXAMPLE_ORDERS = (0, 3, 6)
 FITTED_ORDER = 3
-KINDS = {FITTED: "averaged over segmentations", FITTED_MAP: "most probable segmentation"}
+KINDS = {FITTED: "averaged", FITTED_MAP: "most probable"}
 MOST_PANELS = 2  # signers and signs drawn in Fig. 5, each
 
 
@@ -171,7 +171,7 @@ def fig03(
     rows += [
         _point(
             "D", "explained variance", row.order, row.mean_explained_variance,
-            y_error=row.sd_explained_variance, label=f"M={row.mean_count:.1f}",
+            y_error=row.sd_explained_variance, label=f"{row.mean_count:.1f}",
         )
         for row in recorded.itertuples()
     ]  # fmt: skip
@@ -198,7 +198,7 @@ def fig03(
         "exactly piecewise cubic; both with the prior's noise at binning.recovery_noise. Numbers "
         "at the marks of C are orders; dashed: Poisson events through the same matcher (grey: "
         f"95 %), dotted: the closed form. D: {int(recorded['n'].max())} recorded trajectories, "
-        "± SD. Errors in B and C are standard errors."
+        "± SD; numbers: mean M. Errors in B and C are standard errors."
     )
     return Drawn(figure, frame, caption)
 

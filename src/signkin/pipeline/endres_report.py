@@ -170,7 +170,7 @@ def _comparisons(orders: pd.DataFrame, rates: pd.DataFrame) -> Iterator[tuple[st
         if len(ratio):
             where = str(int(ratio.idxmax()))
             yield "hits for each false positive a second, peak", "Fig. 6", "3", where
-    for dataset, told in (("fitted", "averaged"), ("fitted_map", "most probable segmentation")):
+    for dataset, told in (("fitted", "averaged"), ("fitted_map", "most probable")):
         found = _of(orders, dataset, 3)
         hits = _of(rates, dataset, 3)
         if 3 in found.index:
@@ -182,7 +182,7 @@ def _comparisons(orders: pd.DataFrame, rates: pd.DataFrame) -> Iterator[tuple[st
                 f"{probability:.3f}",
             )
             yield (
-                f"hit rate and false positives a second, the same, {told}",
+                f"hit rate, false positives a second, {told}",
                 "Fig. 3C",
                 "near 1, almost none",
                 f"{hits.loc[3, 'hit_rate']:.3f}, {hits.loc[3, 'false_positives_per_s']:.3f}",

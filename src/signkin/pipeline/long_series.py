@@ -110,16 +110,15 @@ def _wrist_in_bins(
     path, _ = fill_gaps(
         recording.track(f"{hand}_wrist"), rate, settings["kinematics"]["longest_gap_s"]
     )
-    there = np.isfinite(path).any(axis=0)  # a 2-D corpus has no third coordinate
-    path = path[:, there]
-    if path.shape[1] == 0 or np.isnan(path).any():
+    gaps = int(np.isnan(path).any(axis=1).sum())
+    if gaps:
         raise SignkinError(
-            f"{int(np.isnan(path).any(axis=1).sum())} frames without a position",
+            f"{gaps} frames without a position",
             file=where,
             place=f"{hand}_wrist",
             expected="a path without long gaps (kinematics.longest_gap_s)",
         )
-    moving = path.std(axis=0) > 0
+    moving = path.std(axis=0) > 0  # the third coordinate of a 2-D corpus is 0 throughout
     if not moving.any():
         raise SignkinError(
             "the wrist does not move", file=where, place=f"{hand}_wrist", expected="a movement"

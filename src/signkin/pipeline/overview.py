@@ -59,57 +59,88 @@ def rule_notes(rule_files: Sequence[Path]) -> dict[str, tuple[str, str]]:
     return notes
 
 
+ACROSS = 4  # boxes side by side of rules that follow no rule of their stage
+
+
 def layout(edges: Sequence[tuple[str, str]], notes: dict[str, tuple[str, str]]) -> pd.DataFrame:
     """Return a row a rule: rule, stage (its file), note, column, row, the rules right before.
 
-    Each rule stands as far right as the rules after it allow; rows follow the mean row of what
-    is before. An arrow over several columns takes a place of its own in each column between
-    (a row named `from>to`, without a stage), so that it runs beside the boxes.
+    Each stage is a lane of rows, below the stages that it needs. In it a rule stands right of
+    those of its stage that it needs, in the row of the first where that is free; rules without
+    such neighbours share rows at the lane's end.
     """
     rules = sorted({rule for edge in edges for rule in edge})
     before = {rule: sorted(a for a, b in edges if b == rule) for rule in rules}
-    after = {rule: sorted(b for a, b in edges if a == rule) for rule in rules}
-    to_go: dict[str, int] = {}
-
-    def ahead(rule: str) -> int:
-        if rule not in to_go:
-            to_go[rule] = 1 + max((ahead(b) for b in after[rule]), default=-1)
-        return to_go[rule]
-
-    longest = max((ahead(rule) for rule in rules), default=0)
-    column = {rule: longest - ahead(rule) for rule in rules}
-    links: dict[str, list[str]] = {}
-    for rule in rules:
-        links[rule] = []
-        for source in _direct(rule, before):
-            link = source
-            for between in range(column[source] + 1, column[rule]):
-                passing = f"{source}>{rule}:{between}"
-                column[passing], links[passing] = between, [link]
-                link = passing
-            links[rule].append(link)
-    row: dict[str, float] = {}
-    for place in range(longest + 1):
-        here = [name for name, at in column.items() if at == place]
-        # What comes from nowhere stands last: it is no part of the chain.
-        height = {
-            n: sum(row[a] for a in links[n]) / len(links[n]) if links[n] else len(column)
-            for n in here
-        }
-        for i, name in enumerate(sorted(here, key=lambda n: (height[n], ">" in n, n))):
-            row[name] = i - (len(here) - 1) / 2
-    rows = [
-        {
-            "rule": name,
-            "stage": notes.get(name, ("", ""))[0],
-            "note": notes.get(name, ("", ""))[1],
-            "column": column[name],
-            "row": row[name],
-            "after": " ".join(links[name]),
-        }
-        for name in sorted(column, key=lambda n: (column[n], row[n]))
-    ]
+    direct = {rule: _direct(rule, before) for rule in rules}
+    stage = {rule: notes.get(rule, ("", ""))[0] for rule in rules}
+    rows = []
+    top = 0
+    for lane in stage_order([(stage[a], stage[b]) for a, b in edges], sorted(set(stage.values()))):
+        mine = [rule for rule in rules if stage[rule] == lane]
+        places = _lane(mine, {r: [a for a in direct[r] if stage[a] == lane] for r in mine})
+        for rule in sorted(mine, key=lambda r: (places[r][1], places[r][0])):
+            rows.append(
+                {
+                    "rule": rule,
+                    "stage": lane,
+                    "note": notes.get(rule, ("", ""))[1],
+                    "column": places[rule][0],
+                    "row": top + places[rule][1],
+                    "after": " ".join(direct[rule]),
+                }
+            )
+        top += 1 + max(row for _, row in places.values())
     return pd.DataFrame(rows, columns=tables.TABLES["overview"].names())
+
+
+def stage_order(edges: Sequence[tuple[str, str]], stages: Sequence[str]) -> list[str]:
+    """Return the stages, each after those it needs; of a circle, the first by name goes first."""
+    needs = {s: {a for a, b in edges if b == s and a != s} for s in stages}
+    out: list[str] = []
+    while len(out) < len(stages):
+        left = [s for s in stages if s not in out]
+        free = [s for s in left if needs[s] <= set(out)]
+        # Beside the stage before rather than by name: what needs the last one comes first.
+        out.append(
+            max(free or left[:1], key=lambda s: (out[-1:] and out[-1] in needs[s], -left.index(s)))
+        )
+    return out
+
+
+def _lane(rules: Sequence[str], before: Mapping[str, Sequence[str]]) -> dict[str, tuple[int, int]]:
+    """Return rule -> (column, row) in a lane; before: the rules of the lane right before."""
+    column: dict[str, int] = {}
+
+    def place(rule: str) -> int:
+        if rule not in column:
+            column[rule] = 1 + max((place(a) for a in before[rule]), default=-1)
+        return column[rule]
+
+    alone = [r for r in rules if not before[r] and not any(r in b for b in before.values())]
+    row: dict[str, int] = {}
+    chained = sorted((r for r in rules if r not in alone), key=lambda r: (place(r), r))
+    for rule in _along(chained, before):
+        taken = {row[r] for r in row if column[r] == column[rule]}
+        at = row[before[rule][0]] if before[rule] else 1 + max(row.values(), default=-1)
+        while at in taken:
+            at += 1
+        row[rule] = at
+    first = 1 + max(row.values(), default=-1)
+    for i, rule in enumerate(alone):
+        column[rule], row[rule] = i % ACROSS, first + i // ACROSS
+    return {rule: (column[rule], row[rule]) for rule in rules}
+
+
+def _along(rules: Sequence[str], before: Mapping[str, Sequence[str]]) -> list[str]:
+    """Return the rules chain by chain: each as soon as those before it are there."""
+    out: list[str] = []
+    left = list(rules)
+    while left:
+        ready = [r for r in left if set(before[r]) <= set(out)]
+        following = [r for r in ready if before[r]]
+        out.append((following or ready)[0])
+        left.remove(out[-1])
+    return out
 
 
 def _direct(rule: str, before: dict[str, list[str]]) -> list[str]:

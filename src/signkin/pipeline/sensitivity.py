@@ -16,18 +16,22 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from signkin import tables
-from signkin.binning.hit_rate import HitRate, hpfpps
+from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hpfpps
 from signkin.corpus import Corpus
+from signkin.errors import SignkinError
 from signkin.figures import sensitivity as drawing
 from signkin.figures.style import WIDTH_IN
 from signkin.pipeline.binning import FITTED_MAP, Data, Fitted, Study, rows_of
+from signkin.pipeline.endres2013 import RATES_PER_S
 from signkin.pipeline.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
 from signkin.recording import Recording
+from signkin.seeds import stream
 
 # Section 3.2 prints B = 0.1 I, the data's variances and T = 100; neither degrees of freedom,
 # nor what the variances scale, nor the unit of time.
 PRINTED = {"concentration": 0.1, "bins": 100}
 RECOVERED = 3
+CHANCE_DRAWS = 400
 
 
 def sensitivity(
@@ -38,11 +42,18 @@ def sensitivity(
 
     recordings: those to be run. settings: the sections `kinematics`, `binning`, `powerlaw`.
     """
+    if not recordings:
+        raise SignkinError(
+            "no recording has a power-law ground truth",
+            file=corpus.folder,
+            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+        )
     grid = settings["binning"]["sensitivity"]
     rows = []
     for bins in grid["bins"]:
         binned = {**settings, "binning": {**settings["binning"], "bins": bins}}
         cut = single_signs(corpus, recordings, binned, seed).trajectories
+        line = _chance(corpus, cut, binned["binning"], seed)
         for dof, noise, concentration, unit in product(
             grid["dof"], grid["noise"], grid["concentration"], grid["time_unit"]
         ):
@@ -64,7 +75,7 @@ def sensitivity(
                 "printed": _yes(source == "data" and _printed(concentration, bins)),
                 "default": _yes(_is_default(prior, bins, settings["binning"])),
             }
-            rows.append({**told, **_outcomes(corpus, cut, prior, binned["binning"], workers)})
+            rows.append({**told, **_outcomes(corpus, cut, line, prior, binned["binning"], workers)})
     return pd.DataFrame(rows, columns=tables.TABLES["sensitivity"].names(corpus.unit))
 
 
@@ -81,7 +92,7 @@ def _is_default(prior: Mapping[str, Any], bins: int, binning: Mapping[str, Any])
 
 
 def _outcomes(
-    corpus: Corpus, cut: Sequence[Trajectory], prior: Mapping[str, Any],
+    corpus: Corpus, cut: Sequence[Trajectory], line: ChanceLine | None, prior: Mapping[str, Any],
     binning: Mapping[str, Any], workers: int,
 ) -> dict[str, Any]:  # fmt: skip
     orders = binning["sensitivity"]["orders"]
@@ -106,14 +117,28 @@ def _outcomes(
         return {**out, "note": "no recording has a power-law ground truth"}
     truth = powerlaw.groupby("order")["order_probability"].mean()
     out["order_peak_powerlaw"] = int(truth.idxmax())
-    return {**out, **_hits(powerlaw)}
+    return {**out, **_hits(powerlaw, line)}
 
 
 def _rows(corpus: Corpus, settings: Mapping[str, Any], fits: Sequence[Fitted]) -> pd.DataFrame:
     return pd.DataFrame([row for one in fits for row in rows_of(corpus, settings, one)])
 
 
-def _hits(powerlaw: pd.DataFrame) -> dict[str, Any]:
+def _chance(
+    corpus: Corpus, cut: Sequence[Trajectory], binning: Mapping[str, Any], seed: int
+) -> ChanceLine | None:
+    """Return the line of no discrimination on the ground truth, whatever the prior; None: none."""
+    known = [t for t in cut if t.dataset == POWERLAW]
+    if not any(len(t.boundaries_s) for t in known):
+        return None
+    rng = stream(seed, corpus.name, "sensitivity", str(binning["bins"]))
+    return chance_line(
+        [t.boundaries_s for t in known], [t.duration_s for t in known], rng, RATES_PER_S,
+        binning["window_s"], CHANCE_DRAWS,
+    )  # fmt: skip
+
+
+def _hits(powerlaw: pd.DataFrame, line: ChanceLine | None) -> dict[str, Any]:
     ratios = {}
     out: dict[str, Any] = {}
     for order, rows in powerlaw.groupby("order"):
@@ -128,6 +153,10 @@ def _hits(powerlaw: pd.DataFrame) -> dict[str, Any]:
             out["false_positives_per_s_order_3"] = float(
                 np.mean([r.false_positives_per_s for r in rates])
             )
+    false = out.get("false_positives_per_s_order_3")
+    if line is not None and false is not None and false <= line.false_positives_per_s[-1]:
+        high = np.interp(false, line.false_positives_per_s, line.hit_rate_high)
+        out["chance_high_order_3"] = float(high)
     known = {order: value for order, value in ratios.items() if not np.isnan(value)}
     best = max(known.values(), default=float("nan"))
     out["hpfpps_peak"] = " ".join(str(o) for o, value in known.items() if value == best)
@@ -186,7 +215,8 @@ def draw(frame: pd.DataFrame) -> Figure:
         )  # fmt: skip
         if column.startswith("mean_count"):
             ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
-            ax.set_yticks([0, 5, 10, 50, 100], ["0", "5", "10", "50", "100"])
+            ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
+            ax.set_ylim(-1.5, 160)
         ax.set_ylabel(label, fontsize=7.5)
         ax.tick_params(axis="x", labelsize=7)
     figure.legend(

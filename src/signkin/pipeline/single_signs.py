@@ -152,8 +152,11 @@ def wrist_of(recording: Recording, settings: Mapping[str, Any]) -> Wrist:
         raise SignkinError(
             "the wrist does not move", file=where, place=f"{hand}_wrist", expected="a movement"
         )
+    here = paths[hand]
+    if not here[:, 2].any():  # a flat recording: its third coordinate is 0, and no data
+        here = here[:, :2]
     try:
-        path = lowpass(paths[hand], recording.rate_hz, **settings["binning"]["lowpass"])
+        path = lowpass(here, recording.rate_hz, **settings["binning"]["lowpass"])
     except SignkinError as error:
         raise error.at(file=where) from error
     active = active_part(speed(path, recording.rate_hz), settings["powerlaw"]["active_share"])

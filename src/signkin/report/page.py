@@ -6,8 +6,8 @@ of rows. The page asks the network for nothing: styles and figures are in it.
 
 from __future__ import annotations
 
-import base64
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -92,18 +92,59 @@ def render(page: Page, home: Path) -> str:
     environment.tests["numeric"] = lambda form: bool(form) and form not in WORDS
     environment.globals["cell"] = cell
     environment.globals["rows_of"] = rows_of
+    environment.globals["notes_of"] = notes_of
     return environment.get_template("page.html.j2").render(page=page)
 
 
 def data_uri(svg: Path) -> Markup:
     """Return an SVG file as a data address, so that identifiers of figures cannot clash."""
-    content = base64.b64encode(Path(svg).read_bytes()).decode("ascii")
-    return Markup(f"data:image/svg+xml;base64,{content}")
+    content = lighter(Path(svg).read_text(encoding="utf-8"))
+    for sign in '%#"&\n':  # the only ones that an address between double quotes cannot hold
+        content = content.replace(sign, f"%{ord(sign):02X}")
+    return Markup(f"data:image/svg+xml,{content}")
+
+
+_PLACES = re.compile(r'(?<= )(d|x|y)="([^"]*)"')
+_LONG = re.compile(r"-?\d+\.\d{3,}")
+
+
+def lighter(svg: str) -> str:
+    """Return an SVG with places to a hundredth of its unit, a point as matplotlib writes it.
+
+    The page holds all figures; their files keep every digit.
+    """
+
+    def rounded(number: re.Match[str]) -> str:
+        return f"{float(number[0]):.2f}".rstrip("0").rstrip(".")
+
+    def shorter(found: re.Match[str]) -> str:
+        places = _LONG.sub(rounded, " ".join(found[2].split()))
+        return f"{found[1]}='{places}'"
+
+    body = svg[max(svg.find("<svg"), 0) :]  # an image in a page needs no prologue
+    body = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
+    body = re.sub(r">\s+<", "><", _PLACES.sub(shorter, body).strip())
+    # Single quotes stay as they are in the page, double ones would take three letters each.
+    return body if re.search(r'="[^"\']*\'', body) else body.replace('"', "'")
 
 
 def rows_of(view: TableView) -> list[dict[str, Any]]:
     """Return the rows of a table as dictionaries."""
     return view.frame.to_dict("records")
+
+
+MOST_NOTES = 20  # more of them stay in their rows
+
+
+def notes_of(view: TableView) -> list[str]:
+    """Return the different notes of a table, which stand below it with numbers; none if many.
+
+    A column of sentences would make the rows of all others tall.
+    """
+    if "note" not in view.columns:
+        return []
+    notes = [str(note) for note in dict.fromkeys(view.frame["note"]) if note and pd.notna(note)]
+    return notes if len(notes) <= MOST_NOTES else []
 
 
 def cell(value: object, form: str) -> str:
