@@ -220,7 +220,8 @@ def study(tmp_path):
     return make
 
 
-NUMBERS = {"x": np.linspace(1, 3, 41), "kind": ["0010"] * 20 + ["1110"] * 21}
+NUMBERS = {"x": np.linspace(1, 3, 41), "kind": ["0010"] * 20 + ["1110"] * 21,
+           "gap": [np.nan] * 41}  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -238,6 +239,7 @@ NUMBERS = {"x": np.linspace(1, 3, 41), "kind": ["0010"] * 20 + ["1110"] * 21}
         ({"check": "every", "holds": "x < 2"}, "fails"),
         ({"check": "every", "holds": "x < 2", "share": 0.4}, "holds"),
         ({"check": "every", "by": ["kind"], "take": {"m": "mean x"}, "holds": "m > 2"}, "fails"),
+        ({"check": "every", "holds": "x < 2", "show": "gap"}, "not testable"),
         ({"check": "order", "key": "kind", "take": {"m": "mean x"}, "highest": ["1110"]}, "holds"),
         ({"check": "order", "key": "kind", "take": {"m": "mean x"}, "lowest": ["1110"]}, "fails"),
         ({"check": "order", "key": "kind", "take": {"m": "mean x"}, "lowest": ["9"]},

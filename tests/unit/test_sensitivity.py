@@ -119,13 +119,13 @@ def test_the_figure_has_a_mark_for_each_setting(found):
     for ax, (column, (label, paper)) in zip(figure.axes, OUTCOMES.items(), strict=True):
         lines = ax.get_lines()
         marks = [line for line in lines if line.get_markersize() == 3.6]
-        drawn = sorted(line.get_ydata()[0] for line in marks)
+        drawn = sorted(value for line in marks for value in line.get_ydata())
         assert drawn == pytest.approx(sorted(table[column].dropna()))
         rings = [line for line in lines if line.get_markersize() == 8]
         stars = [line for line in lines if line.get_markersize() == 13]
         there = table[table[column].notna()]
-        assert len(rings) == (there["printed"] == "yes").sum()
-        assert len(stars) == (there["default"] == "yes").sum()
+        counts = [sum(len(line.get_ydata()) for line in kind) for kind in (rings, stars)]
+        assert counts == [(there[flag] == "yes").sum() for flag in ("printed", "default")]
         dashed = [line.get_ydata()[0] for line in lines if line.get_linestyle() == "--"]
         assert dashed == ([] if paper is None else [paper])
         assert ax.get_ylabel() == label

@@ -307,6 +307,8 @@ def every(
     told = f"{int(answers.sum())} of {len(answers)} {what}"
     if show:
         shown_values = _numbers(context, table, frame, show).astype(float)
+        if shown_values.isna().all():
+            raise Missing(f"{table}.csv has no number for {show}")
         told = f"{shown(float(shown_values.min()), 4)}"
         if shown_values.nunique() > 1:
             told += f" to {shown(float(shown_values.max()), 4)}"

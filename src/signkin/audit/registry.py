@@ -127,7 +127,7 @@ def _guessed(path: Path) -> pd.DataFrame:
             continue
         filled = texts[texts != ""]
         numbers = pd.to_numeric(filled, errors="coerce")
-        if len(filled) and numbers.notna().all():
+        if numbers.notna().all():  # a column without any content is one of missing numbers
             frame[column] = pd.to_numeric(texts, errors="coerce")  # empty: missing
         elif len(filled) and filled.isin(["True", "False"]).all():
             frame[column] = texts == "True"
