@@ -1,15 +1,6 @@
 # Endres, Meirovitch, Flash & Giese 2013: single signs, ground truth, binning, tables and figures.
 
 
-def of_shards(pattern):
-    """Return an input function: the files of all shards of a corpus."""
-    return lambda w: collect(pattern, corpus=w.corpus, shard=PLAN.shards(w.corpus))
-
-
-STUDY = "<results>/endres2013/{corpus}"
-SHARD = STUDY + "/shards/{shard}"
-
-
 rule compile_kernels:
     """Compiled code of the binning engine, once for all jobs."""
     output:
@@ -27,10 +18,10 @@ rule single_signs:
     input:
         recordings=rules.ingest.output.recordings,
     output:
-        trajectories=SHARD + "/trajectories.parquet",
-        ground_truth=SHARD + "/ground_truth.csv",
-        rejected_draws=SHARD + "/rejected_draws.csv",
-        binning_left_out=SHARD + "/not_cut.csv",
+        trajectories="<results>/endres2013/{corpus}/shards/{shard}/trajectories.parquet",
+        ground_truth="<results>/endres2013/{corpus}/shards/{shard}/ground_truth.csv",
+        rejected_draws="<results>/endres2013/{corpus}/shards/{shard}/rejected_draws.csv",
+        binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/not_cut.csv",
     log:
         "<logs>/endres2013/{corpus}/{shard}/single_signs.log",
     params:
@@ -52,10 +43,10 @@ rule bin_single_signs:
         rules.compile_kernels.output,
         trajectories=rules.single_signs.output.trajectories,
     output:
-        binning=SHARD + "/binning.csv",
-        truths=SHARD + "/fitted_truths.csv",
-        left_out=SHARD + "/not_binned.csv",
-        posteriors=SHARD + "/posteriors.parquet",
+        binning="<results>/endres2013/{corpus}/shards/{shard}/binning.csv",
+        truths="<results>/endres2013/{corpus}/shards/{shard}/fitted_truths.csv",
+        left_out="<results>/endres2013/{corpus}/shards/{shard}/not_binned.csv",
+        posteriors="<results>/endres2013/{corpus}/shards/{shard}/posteriors.parquet",
     log:
         "<logs>/endres2013/{corpus}/{shard}/binning.log",
     params:
@@ -81,15 +72,15 @@ rule endres_tables:
         not_binned=of_shards(rules.bin_single_signs.output.left_out),
         trajectories=of_shards(rules.single_signs.output.trajectories),
     output:
-        binning=STUDY + "/binning.csv",
-        truths=STUDY + "/fitted_truths.csv",
-        ground_truth=STUDY + "/ground_truth.csv",
-        rejected=STUDY + "/rejected_draws.csv",
-        left_out=STUDY + "/left_out.csv",
-        orders=STUDY + "/order_posteriors.csv",
-        rates=STUDY + "/hit_rates.csv",
-        lines=STUDY + "/chance_lines.csv",
-        tests=STUDY + "/order_tests.csv",
+        binning="<results>/endres2013/{corpus}/binning.csv",
+        truths="<results>/endres2013/{corpus}/fitted_truths.csv",
+        ground_truth="<results>/endres2013/{corpus}/ground_truth.csv",
+        rejected="<results>/endres2013/{corpus}/rejected_draws.csv",
+        left_out="<results>/endres2013/{corpus}/left_out.csv",
+        orders="<results>/endres2013/{corpus}/order_posteriors.csv",
+        rates="<results>/endres2013/{corpus}/hit_rates.csv",
+        lines="<results>/endres2013/{corpus}/chance_lines.csv",
+        tests="<results>/endres2013/{corpus}/order_tests.csv",
     log:
         "<logs>/endres2013/{corpus}/tables.log",
     params:
@@ -128,7 +119,7 @@ rule endres_figures:
             "<results>/endres2013/{{corpus}}/{figure}.csv",
             figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
         ),
-        captions=STUDY + "/captions.json",
+        captions="<results>/endres2013/{corpus}/captions.json",
     log:
         "<logs>/endres2013/{corpus}/figures.log",
     params:
@@ -150,10 +141,10 @@ rule sensitivity:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
     output:
-        table=STUDY + "/sensitivity.csv",
-        svg=STUDY + "/fig_sensitivity.svg",
-        pdf=STUDY + "/fig_sensitivity.pdf",
-        caption=STUDY + "/sensitivity.txt",
+        table="<results>/endres2013/{corpus}/sensitivity.csv",
+        svg="<results>/endres2013/{corpus}/fig_sensitivity.svg",
+        pdf="<results>/endres2013/{corpus}/fig_sensitivity.pdf",
+        caption="<results>/endres2013/{corpus}/sensitivity.txt",
     log:
         "<logs>/endres2013/{corpus}/sensitivity.log",
     threads: 2
@@ -176,9 +167,9 @@ rule long_series:
         rules.compile_kernels.output,
         recordings=rules.ingest.output.recordings,
     output:
-        wrist_posteriors=SHARD + "/wrist_posteriors.csv",
-        wrist_boundaries=SHARD + "/wrist_boundaries.csv",
-        binning_left_out=SHARD + "/wrists_left_out.csv",
+        wrist_posteriors="<results>/endres2013/{corpus}/shards/{shard}/wrist_posteriors.csv",
+        wrist_boundaries="<results>/endres2013/{corpus}/shards/{shard}/wrist_boundaries.csv",
+        binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/wrists_left_out.csv",
     log:
         "<logs>/endres2013/{corpus}/{shard}/long_series.log",
     threads: 2
@@ -210,14 +201,14 @@ rule one_wrist:
         ),
         frames=of_shards(rules.kinematics.output.frames),
     output:
-        posteriors=STUDY + "/wrist_posteriors.csv",
-        boundaries=STUDY + "/wrist_boundaries.csv",
-        left_out=STUDY + "/wrists_left_out.csv",
-        table=STUDY + "/one_wrist.csv",
-        csv=STUDY + "/fig_one_wrist.csv",
-        svg=STUDY + "/fig_one_wrist.svg",
-        pdf=STUDY + "/fig_one_wrist.pdf",
-        caption=STUDY + "/one_wrist.txt",
+        posteriors="<results>/endres2013/{corpus}/wrist_posteriors.csv",
+        boundaries="<results>/endres2013/{corpus}/wrist_boundaries.csv",
+        left_out="<results>/endres2013/{corpus}/wrists_left_out.csv",
+        table="<results>/endres2013/{corpus}/one_wrist.csv",
+        csv="<results>/endres2013/{corpus}/fig_one_wrist.csv",
+        svg="<results>/endres2013/{corpus}/fig_one_wrist.svg",
+        pdf="<results>/endres2013/{corpus}/fig_one_wrist.pdf",
+        caption="<results>/endres2013/{corpus}/one_wrist.txt",
     log:
         "<logs>/endres2013/{corpus}/one_wrist.log",
     params:
@@ -236,7 +227,7 @@ rule binning_elan:
         about=rules.gather.output.recordings,
         annotation=lambda w: PLAN.annotation_files(w.corpus),
     output:
-        folder=directory(STUDY + "/eaf"),
+        folder=directory("<results>/endres2013/{corpus}/eaf"),
     log:
         "<logs>/endres2013/{corpus}/elan.log",
     params:

@@ -12,3 +12,8 @@ except SignkinError as error:
 wildcard_constraints:
     corpus="[A-Za-z0-9._-]+",
     shard=r"\d{4}",
+
+
+def of_shards(pattern):
+    """Return an input function: the files of all shards of a corpus."""
+    return lambda w: collect(pattern, corpus=w.corpus, shard=PLAN.shards(w.corpus))
