@@ -39,7 +39,7 @@ def plot_settings(
     for (c, m), place in places.items():
         kind = (points[colour].astype(str) == c) & (points[marker].astype(str) == m)
         here = points[kind & points[column].notna()]
-        at = here["group"].map(groups.index) + place
+        at = here["group"].map(groups.index).astype(float) + place  # float: it may be empty
         for flag, ring in (("printed", PRINTED), ("default", DEFAULT)):
             told = here[flag] == "yes"
             if told.any():
