@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from signkin import tables
+from signkin.errors import SignkinError
 from signkin.figures import binning as drawing
 from signkin.figures.style import paper_style
 from signkin.pipeline import endres2013, endres_figures
@@ -261,6 +262,12 @@ def test_the_scheme_has_its_boundaries(drawn):
     dotted = {line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"}
     assert dotted == {0, *rows["x"]}
     assert list(rows.columns) == tables.TABLES["endres_figure"].names()
+
+
+def test_without_ground_truth_there_is_a_sentence():
+    frames = {"ground_truth": tables.empty("ground_truth", "m")}
+    with pytest.raises(SignkinError, match=r"tiny: no recording has a power-law ground truth"):
+        endres_figures.draw(corpus_of(["a"]), frames, [], [], [], settings(), 3)
 
 
 def test_marks_on_one_spot_share_a_label():

@@ -359,3 +359,16 @@ def test_the_page_escapes_folds_and_embeds(tmp_path):
     assert "data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg'/>" in html
     assert 'href="../f.pdf"' in html
     assert "no evidence about people" in html
+
+
+def test_last_digits_of_a_layout_do_not_change_the_bytes(tmp_path):
+    """The solver of the layout adds up in an order that differs from run to run."""
+    made = []
+    for jitter in (0.0, 3e-13):
+        with paper_style(), plt.rc_context({"figure.constrained_layout.use": False}):
+            figure = plt.figure(figsize=(4, 2))
+            axes = figure.add_axes((0.1234567891 + jitter, 0.2, 0.7, 0.6 - jitter))
+            axes.plot([0, 1], [0, 2])
+            save(figure, tmp_path / "a.svg", tmp_path / "a.pdf")
+        made.append([(tmp_path / f"a.{kind}").read_bytes() for kind in ("svg", "pdf")])
+    assert made[0] == made[1]

@@ -118,14 +118,16 @@ def test_the_figure_has_a_mark_for_each_setting(found):
     assert len(figure.axes) == len(OUTCOMES)
     for ax, (column, (label, paper)) in zip(figure.axes, OUTCOMES.items(), strict=True):
         lines = ax.get_lines()
-        marks = [line for line in lines if line.get_markersize() == 3.6]
-        drawn = sorted(value for line in marks for value in line.get_ydata())
-        assert drawn == pytest.approx(sorted(table[column].dropna()))
-        rings = [line for line in lines if line.get_markersize() == 8]
-        stars = [line for line in lines if line.get_markersize() == 13]
+
+        def drawn(size, lines=lines):
+            return sorted(y for line in lines if line.get_markersize() == size
+                          for y in line.get_ydata())  # fmt: skip
+
+        assert drawn(3.6) == pytest.approx(sorted(table[column].dropna()))
         there = table[table[column].notna()]
-        counts = [sum(len(line.get_ydata()) for line in kind) for kind in (rings, stars)]
-        assert counts == [(there[flag] == "yes").sum() for flag in ("printed", "default")]
+        for size, flag in ((8, "printed"), (13, "default")):
+            flagged = there.loc[there[flag] == "yes", column]
+            assert drawn(size) == pytest.approx(sorted(flagged))
         dashed = [line.get_ydata()[0] for line in lines if line.get_linestyle() == "--"]
         assert dashed == ([] if paper is None else [paper])
         assert ax.get_ylabel() == label

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
+import numpy as np
 import seaborn as sns
 from matplotlib.figure import Figure
 
@@ -20,6 +21,7 @@ PALE = "#b9c4d0"
 ACCENT = "#d98a1f"
 HAND_COLOURS = {"right": RIGHT, "left": LEFT}
 
+PLACES = 6  # decimals of a place in a figure
 WIDTH_IN = 6.9  # a text column of 175 mm
 SPEED_UNITS = {"m": "m/s", "px": "px/s"}
 
@@ -49,6 +51,21 @@ def paper_style() -> Iterator[None]:
 
 def save(figure: Figure, svg: str | Path, pdf: str | Path) -> None:
     """Write a figure as SVG and PDF, without the date that would change every time."""
+    settle(figure)
     figure.savefig(svg, metadata={"Date": None, "Creator": "signkin"})
     figure.savefig(pdf, metadata={"CreationDate": None, "Creator": "signkin", "Producer": None})
     plt.close(figure)
+
+
+def settle(figure: Figure) -> None:
+    """Lay a figure out once, and round where its axes came to lie.
+
+    The constrained layout's solver adds up in an order that goes by places in memory: last
+    digits differ from run to run, and SVG identifiers are made of them.
+    """
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for ax in figure.axes:
+        for which in ("original", "active"):
+            place = ax.get_position(original=which == "original")
+            ax.set_position(np.round(place.bounds, PLACES).tolist(), which=which)
