@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from support.runs import Run, checked, prepare, run
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -34,3 +36,18 @@ def real_corpora(real_data: Path) -> Path:
     if missing:
         pytest.skip(f"real recordings: no {', '.join(missing)} in {real_data}")
     return real_data
+
+
+@pytest.fixture(scope="session")
+def simulated_run(tmp_path_factory) -> Run:
+    """The run of someone without real recordings: simulated corpora, and the rest missing."""
+    folder = prepare(tmp_path_factory.mktemp("simulated") / "run")
+    return checked(run(folder, "--cores", "2"))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Give all tests of one run of the workflow to one worker: the run is made once."""
+    for item in items:
+        for name in ("simulated_run", "real_run", "signs_run"):
+            if name in getattr(item, "fixturenames", ()):
+                item.add_marker(pytest.mark.xdist_group(name))

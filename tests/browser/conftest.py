@@ -8,8 +8,6 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
-from support.runs import checked, prepare, run
-
 ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -28,6 +26,5 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def report(tmp_path_factory):
-    folder = prepare(tmp_path_factory.mktemp("page") / "run", corpora=["lsf-sim"])
-    return checked(run(folder)).results / "report/index.html"
+def report(simulated_run):
+    return simulated_run.results / "report/index.html"

@@ -8,14 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from support.runs import MINI, Run, checked, mini_motion, prepare, run
-
-
-@pytest.fixture(scope="session")
-def simulated_run(tmp_path_factory) -> Run:
-    """The run of someone without real recordings: simulated corpora, and the rest missing."""
-    folder = prepare(tmp_path_factory.mktemp("simulated") / "run")
-    return checked(run(folder, "--cores", "2"))
+from support.runs import MINI, mini_motion, prepare
 
 
 @pytest.fixture
