@@ -160,10 +160,13 @@ def files_of(folder):
 
 
 def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_path):
-    """The next run completes what a killed one left, with other cores, to the same bytes."""
+    """The next run completes what a killed one left, with other cores, to the same bytes.
+
+    On the first study; tests of the second have their own comparison.
+    """
     folder = prepare(tmp_path / "run")
     process = subprocess.Popen(
-        command("--cores", "2"), cwd=folder, env=environment(None), start_new_session=True,
+        command("--cores", "2", "naert2017", "naert2017_durations"), cwd=folder, env=environment(None), start_new_session=True,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     deadline = time.monotonic() + 120
@@ -174,10 +177,11 @@ def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_pat
     assert process.poll() is None, "the run was over before it could be killed"
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    checked(run(folder, "--cores", "1"))
+    checked(run(folder, "--cores", "1", "naert2017", "naert2017_durations"))
     first, second = files_of(simulated_run.results), files_of(folder / "results")
-    assert first.keys() == second.keys()
-    differing = [name for name in first if first[name] != second[name]]
+    assert len(second) > 100
+    assert second.keys() <= first.keys()
+    differing = [name for name in second if first[name] != second[name]]
     assert differing == []
 
 
