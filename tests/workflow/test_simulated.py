@@ -165,9 +165,10 @@ def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_pat
     On the first study; tests of the second have their own comparison.
     """
     folder = prepare(tmp_path / "run")
+    targets = ("naert2017", "naert2017_durations")
     process = subprocess.Popen(
-        command("--cores", "2", "naert2017", "naert2017_durations"), cwd=folder, env=environment(None), start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        command("--cores", "2", *targets), cwd=folder, env=environment(None),
+        start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     deadline = time.monotonic() + 120
     while time.monotonic() < deadline and process.poll() is None:
@@ -177,7 +178,7 @@ def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_pat
     assert process.poll() is None, "the run was over before it could be killed"
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    checked(run(folder, "--cores", "1", "naert2017", "naert2017_durations"))
+    checked(run(folder, "--cores", "1", *targets))
     first, second = files_of(simulated_run.results), files_of(folder / "results")
     assert len(second) > 100
     assert second.keys() <= first.keys()
