@@ -45,6 +45,7 @@ def simulated_run(tmp_path_factory) -> Run:
     return checked(run(folder, "--cores", "2"))
 
 
+@pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Give all tests of one run of the workflow to one worker: the run is made once."""
     for item in items:

@@ -122,6 +122,8 @@ def test_what_is_missing_is_said(simulated_run):
 def test_every_table_is_as_the_dictionary_says(simulated_run):
     seen = 0
     for path in sorted(simulated_run.results.glob("**/*.csv")):
+        if "printed" in path.parts:  # copies of the papers' own tables
+            continue
         kind = path.stem if path.stem in tables.TABLES else naert2017.FIGURE_TABLES.get(path.stem)
         if path.parent.parent.name == "shards" and path.stem == "transitions":
             kind = "raw_transitions"
