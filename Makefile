@@ -42,7 +42,7 @@ lint: $(VENV)/ready
 
 unit: $(VENV)/ready
 	.ci/chromium
-	$(BIN)/pytest -n 2 --dist loadgroup $(ARGS)
+	$(BIN)/pytest -n 2 --dist loadfile $(ARGS)
 
 # PyTorch, which one peer wants, is no part of the lock: see benchmarks/README.md.
 TORCH ?= torch==2.13.0

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -40,15 +42,26 @@ def real_corpora(real_data: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def simulated_run(tmp_path_factory) -> Run:
-    """The run of someone without real recordings: simulated corpora, and the rest missing."""
-    folder = prepare(tmp_path_factory.mktemp("simulated") / "run")
-    return checked(run(folder, "--cores", "2"))
+    """The run of someone without real recordings: simulated corpora, and the rest missing.
+
+    Made once, by the first worker that wants it; the others wait. It is not to be changed:
+    `own_copy` is.
+    """
+    base = tmp_path_factory.getbasetemp()
+    if os.environ.get("PYTEST_XDIST_WORKER"):
+        base = base.parent  # that of all workers
+    folder = base / "simulated-run"
+    with (base / "simulated-run.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        told = base / "simulated-run.txt"
+        if not told.exists():
+            text = checked(run(prepare(folder), "--cores", "2")).text
+            told.write_text(text, encoding="utf-8")
+        return Run(folder, 0, told.read_text(encoding="utf-8"))
 
 
-@pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Give all tests of one run of the workflow to one worker: the run is made once."""
-    for item in items:
-        for name in ("simulated_run", "real_run", "signs_run"):
-            if name in getattr(item, "fixturenames", ()):
-                item.add_marker(pytest.mark.xdist_group(name))
+@pytest.fixture
+def own_copy(simulated_run, tmp_path) -> Run:
+    """A copy of that run, times and Snakemake's records too."""
+    folder = shutil.copytree(simulated_run.folder, tmp_path / "copy")
+    return Run(folder, simulated_run.status, simulated_run.text)

@@ -1,5 +1,6 @@
 """What someone gets who has no real recordings, and what the pipeline promises of any run."""
 
+import fcntl
 import os
 import re
 import signal
@@ -147,8 +148,8 @@ def test_the_tags_are_written_back_beside_the_old_ones(simulated_run):
         assert times == pytest.approx(refined["refined_s"].to_numpy(), abs=5e-4)
 
 
-def test_a_second_run_does_nothing(simulated_run):
-    again = checked(run(simulated_run.folder))
+def test_a_second_run_does_nothing(own_copy):
+    again = checked(run(own_copy.folder))
     assert "Nothing to be done" in again.text
 
 
@@ -188,12 +189,12 @@ def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_pat
     assert differing == []
 
 
-def test_two_runs_in_one_folder_do_not_collide(simulated_run):
-    import fcntl
-
-    with (simulated_run.folder / ".snakemake/signkin.lock").open("w") as lock:
+def test_two_runs_in_one_folder_do_not_collide(tmp_path):
+    folder = prepare(tmp_path / "run")
+    (folder / ".snakemake").mkdir()
+    with (folder / ".snakemake/signkin.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        second = run(simulated_run.folder)
+        second = run(folder)
     assert second.status == 1
     assert "another run is at work" in second.text
 

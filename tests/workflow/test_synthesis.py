@@ -31,10 +31,10 @@ def test_every_figure_and_table_is_there(simulated_run):
     assert "Synthesis against the captured motion" in page and "Figure 13" in page
 
 
-def test_an_utterance_from_the_command_line(simulated_run):
-    done = said(simulated_run, "ONE-07 TWO-07", "--name", "two", "--method", "interpolation")
+def test_an_utterance_from_the_command_line(own_copy):
+    done = said(own_copy, "ONE-07 TWO-07", "--name", "two", "--method", "interpolation")
     assert done.returncode == 0, done.stderr
-    folder = simulated_run.results / "naert2017/lsf-sim/synthesis"
+    folder = own_copy.results / "naert2017/lsf-sim/synthesis"
     parts = tables.read_table(folder / "two_parts.csv", "utterances")
     assert list(parts["kind"]) == ["sign", "transition", "sign"]
     assert set(parts["method"]) == {"", "interpolation"}
@@ -44,8 +44,8 @@ def test_an_utterance_from_the_command_line(simulated_run):
     assert np.isfinite(motion.positions).all()
 
 
-def test_a_gloss_that_does_not_occur_is_told_in_one_sentence(simulated_run):
-    done = said(simulated_run, "ONE-7")
+def test_a_gloss_that_does_not_occur_is_told_in_one_sentence(own_copy):
+    done = said(own_copy, "ONE-7")
     assert done.returncode == 1
     assert "the gloss 'ONE-7' does not occur" in done.stderr and "ONE-07" in done.stderr
     assert "Traceback" not in done.stderr
