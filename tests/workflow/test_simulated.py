@@ -128,6 +128,8 @@ def test_every_table_is_as_the_dictionary_says(simulated_run):
         kind = path.stem if path.stem in tables.TABLES else naert2017.FIGURE_TABLES.get(path.stem)
         if path.parent.parent.name == "shards" and path.stem == "transitions":
             kind = "raw_transitions"
+        if "endres2013" in path.parts and path.stem.startswith("fig"):
+            kind = "fig01_powerlaw" if path.stem == "fig01" else "endres_figure"
         if kind:
             columns = list(pd.read_csv(path, nrows=0).columns)
             assert columns == tables.TABLES[kind].names(), path
@@ -183,7 +185,7 @@ def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_pat
     process.wait()
     checked(run(folder, "--cores", "1", *targets))
     first, second = files_of(simulated_run.results), files_of(folder / "results")
-    assert len(second) > 100
+    assert len(second) > 60
     assert second.keys() <= first.keys()
     differing = [name for name in second if first[name] != second[name]]
     assert differing == []
