@@ -344,6 +344,7 @@ def draw(
         mine = {kind: known.of(recording, hand) for kind, known in events.items()}
         plot_excerpt(frames, mine, hand, corpus.unit, window, ax=ax, legend=i == 0)
         ax.set_xlabel("time in the recording (s)" if i else "")
+    named: dict[str, Any] = {}
     for i, panel in enumerate(panels):
         ax = figure.add_subplot(grid[2 + i // columns, i % columns])
         part = points[points["panel"] == panel]
@@ -351,7 +352,9 @@ def draw(
         ax.set_title(panel, loc="left")
         if i % columns:
             ax.set_ylabel("")
-        ax.legend(loc="lower right", fontsize=6.5)
+        named |= dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
+    # One legend for all panels: in them it would lie on the lines.
+    figure.legend(named.values(), named.keys(), loc="outside lower center", ncols=3)
     return figure
 
 
