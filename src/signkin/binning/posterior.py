@@ -19,10 +19,12 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaln, logsumexp
+from scipy.special import gammaln
 
-from signkin.binning import kernels
+from signkin.binning import band, segmentation, segments, sum_product
+from signkin.binning.lanes import WIDTH
 from signkin.binning.prior import HIGHEST_ORDER, Prior, Tables, tables
+from signkin.binning.room import Room
 from signkin.errors import SignkinError
 
 Floats = NDArray[np.float64]
@@ -35,8 +37,9 @@ BAND = 32
 BAND_CUT_MASS = 1e-6
 CLEARANCE_BINS = 3
 TAIL_STEPS = 4
-MOST_NOISES = 1e60  # squares and their determinants overflow above
+MOST_NOISES = 1e30  # products of squares overflow above
 NO_CANCELLATION = 0.01
+_ROOM = Room()
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 
 
@@ -110,7 +113,7 @@ class Posterior:
                 place="count",
                 expected=f"from {fewest} to {len(self.x) - 1}",
             )
-        return kernels.best_boundaries(self._evidence(order), wanted + 1)
+        return segmentation.best_boundaries(self._evidence(order), wanted + 1)
 
     def expected_trajectory(self, order: int) -> Floats:
         """Return the posterior mean of the trajectory, (T, L), averaged over segmentations."""
@@ -119,13 +122,16 @@ class Posterior:
     def map_trajectory(self, order: int, count: int | None = None) -> Floats:
         """Return the mean of the most probable segmentation, (T, L): exactly piecewise."""
         ends = [*self.map_segmentation(order, count), len(self.x) - 1]
-        segments = np.zeros((order + 1, len(self.x), self.max_segment_bins))
+        bins, dims = self.x.shape
+        chosen = np.zeros((order + 1, bins, self.max_segment_bins))
         start = 0
         for end in ends:
-            segments[order, start, end - start] = 1.0
+            chosen[order, start, end - start] = 1.0
             start = int(end) + 1
-        mean, _ = _expectations(self.x, self.prior, self.dt_s, order + 1, segments)
-        return mean[order]
+        made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
+        whitened = _whitened(self.x, self.prior)
+        means, _ = _expect(whitened, bins, made, chosen, (order,), self.prior.inverse_scale(dims))
+        return means[0]
 
     def noise_covariance(self, order: int) -> Floats:
         """Return the noise covariance, (L, L): inverse expected precision, averaged over bins."""
@@ -144,7 +150,8 @@ class Posterior:
     def _evidence(self, order: int) -> Floats:
         bins, dims = self.x.shape
         made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
-        return _evidence(_whitened(self.x, self.prior), made, self.max_segment_bins)[order]
+        whitened = _whitened(self.x, self.prior)
+        return _by_order(whitened, bins, made, self.max_segment_bins)[order]
 
 
 def fit(
@@ -194,17 +201,16 @@ def fit(
             expected=f"less than {MOST_NOISES:.0e}",
             todo="Check the unit of the data against that of noise_sd.",
         )
-    evidence = _evidence(whitened, made, longest)
     every = max_count is not None or bins <= EVERY_COUNT_UP_TO
-    found = (_counted if every else _in_band)(evidence, wanted, bins, longest, max_count)
+    if every:
+        evidence = _by_segment(whitened, bins, made, longest)
+        found = _counted(evidence, wanted, bins, longest, max_count)
+    else:
+        found = _in_band(_by_order(whitened, bins, made, longest), wanted, bins, longest)
     mean = noise = None
     if expectations:
-        for d in set(range(n_orders)) - set(wanted):
-            evidence[d] = 0.0  # not asked for: no segment of it counts
-        means, noises = _expect(whitened, made, evidence)
-        scale = np.sqrt(prior.inverse_scale(dims))
-        mean = means[list(wanted)] * scale
-        noise = noises[list(wanted)] * np.outer(scale, scale)
+        inverse_scale = prior.inverse_scale(dims)
+        mean, noise = _expect(whitened, bins, made, found.segments, wanted, inverse_scale)
     return Posterior(
         x=x,
         prior=prior,
@@ -213,7 +219,7 @@ def fit(
         max_segment_bins=longest,
         log_evidence_by_count=found.log_by_count - _log_uniform(bins),
         log_evidence=found.log_evidence,
-        order_probability=np.exp(found.log_evidence - logsumexp(found.log_evidence)),
+        order_probability=np.exp(found.log_evidence - _log_sum(found.log_evidence)),
         cut_mass=found.cut_mass,
         _count_probability=found.probability,
         _boundary=found.boundary,
@@ -260,7 +266,7 @@ def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None
     x, _ = _checked(X, [order], "trajectory", least_bins=1)
     bins, dims = x.shape
     made = tables(prior, bins, bins, dims, order + 1, dt_s)
-    by_length = _evidence(_whitened(x, prior), made, bins)[order]
+    by_length = _by_order(_whitened(x, prior), bins, made, bins)[order]
     out = np.full((bins, bins), -np.inf)
     for i in range(bins):
         out[i, i:] = by_length[i, : bins - i]
@@ -288,13 +294,17 @@ def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """Rows for the wanted orders. log_by_count: ln(P(M) P(D | M))."""
+    """Rows for the wanted orders. log_by_count: ln(P(M) P(D | M)).
+
+    segments: probabilities of segments, by segment or by order (segments.py), of all orders.
+    """
 
     log_by_count: Floats
     probability: Floats
     boundary: Floats
     log_evidence: Floats
     cut_mass: Floats
+    segments: Floats
 
 
 def _checked(
@@ -347,68 +357,102 @@ def _checked(
 
 
 def _whitened(x: Floats, prior: Prior) -> Floats:
-    return np.ascontiguousarray(x / np.sqrt(prior.inverse_scale(x.shape[1])))
-
-
-def _evidence(whitened: Floats, made: Tables, longest: int) -> Floats:
-    n_orders = made.cosine.shape[1]
-    out = np.empty((n_orders, len(whitened), longest))
-    kernels.segment_evidence(whitened, made.cosine, made.sine, made.constant, made.half, out)
+    """Return the data in units of the prior's noise, (L, T + 8): a row for each dimension."""
+    bins, dims = x.shape
+    out = np.zeros((dims, bins + WIDTH))
+    out[:, :bins] = (x / np.sqrt(prior.inverse_scale(dims))).T
     return out
 
 
-def _expect(whitened: Floats, made: Tables, segments: Floats) -> tuple[Floats, Floats]:
-    bins, dims = whitened.shape
-    mean = np.empty((len(segments), bins, dims))
-    noise = np.empty((len(segments), dims, dims))
-    kernels.expectations(
-        whitened,
-        made.cosine,
-        made.sine,
-        made.inverse,
-        made.powers,
-        made.half,
-        segments,
-        mean,
-        noise,
-    )
-    return mean, noise
+def _by_segment(whitened: Floats, bins: int, made: Tables, longest: int) -> Floats:
+    """Return the log evidence of all segments, (G, T, W, 8)."""
+    groups = -(-made.cosine.shape[1] // WIDTH)
+    out = _ROOM.array("evidence", groups, bins, longest, WIDTH)
+    segments.segment_evidence(
+        whitened, made.cosine, made.sine, made.constant, made.half, bins, out
+    )  # fmt: skip
+    return out
 
 
-def _expectations(
-    x: Floats, prior: Prior, dt_s: float | None, n_orders: int, segments: Floats
-) -> tuple[Floats, Floats]:
-    """Return expectations for given segment probabilities, in the data's unit."""
-    bins, dims = x.shape
-    made = tables(prior, bins, segments.shape[2], dims, n_orders, dt_s)
-    mean, noise = _expect(_whitened(x, prior), made, segments)
-    scale = np.sqrt(prior.inverse_scale(dims))
-    return mean * scale, noise * np.outer(scale, scale)
+def _by_order(whitened: Floats, bins: int, made: Tables, longest: int) -> Floats:
+    """Return the log evidence of all segments, (D, T, W)."""
+    out = _ROOM.array("evidence", made.cosine.shape[1], bins, longest)
+    segments.segment_evidence(
+        whitened, made.cosine, made.sine, made.constant, made.half, bins, out
+    )  # fmt: skip
+    return out
+
+
+def _expect(
+    whitened: Floats, bins: int, made: Tables, probability: Floats, wanted: tuple[int, ...],
+    inverse_scale: Floats,
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Return the wanted orders' expected trajectories and noise, in the data's unit."""
+    orders = made.cosine.shape[1]
+    dims = len(whitened)
+    asked = np.zeros(orders, dtype=np.int64)
+    asked[list(wanted)] = 1
+    longest = probability.shape[2]
+    z = _ROOM.array("z", longest + 1, orders, dims, WIDTH)
+    chances = _ROOM.array("chances", longest, -(-orders // WIDTH) * WIDTH, WIDTH)
+    mean = np.empty((orders, dims, whitened.shape[1]))
+    noise = np.empty((orders, dims, dims))
+    segments.expectations(
+        whitened, made.cosine, made.sine, made.inverse, made.powers, made.half, bins,
+        probability, asked, mean, noise, z, chances,
+    )  # fmt: skip
+    scale = np.sqrt(inverse_scale)
+    rows = list(wanted)
+    means = np.ascontiguousarray(mean[rows, :, :bins].transpose(0, 2, 1))
+    return means * scale, noise[rows] * (scale[:, None] * scale)
 
 
 def _counted(
     evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None
 ) -> _Found:
-    """Work out M = 0..max_count; `evidence` (D, T, W) becomes probabilities of segments."""
+    """Work out M = 0..max_count of all orders together."""
     fewest = -(-bins // longest) - 1
     most = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
     counts = most + 1
-    rows = len(wanted)
-    log_by_count, probability = np.empty((2, rows, counts))
-    boundary = np.empty((rows, bins))
-    log_evidence, lost, cut = np.empty((3, rows))
-    kernels.fit_orders(
-        evidence, np.array(wanted), np.ascontiguousarray(_log_prior(bins, longest)[:counts]),
-        log_by_count, probability, boundary, log_evidence, lost, cut,
-    )  # fmt: skip
-    _refuse_lost(lost)
-    return _Found(log_by_count, probability, boundary, log_evidence, cut)
+    log_prior = np.ascontiguousarray(_log_prior(bins, longest)[:counts])
+    groups = len(evidence)
+    lanes = groups * WIDTH
+    log_by_count = np.empty((groups, counts, WIDTH))
+    probability = np.empty((lanes, counts))
+    boundary = np.empty((groups, bins, WIDTH))
+    log_evidence, lost, cut = np.empty((3, lanes))
+    likely = _ROOM.array("probabilities", *evidence.shape)
+    best = _ROOM.array("best", bins + 1, WIDTH)
+    columns = sum_product.columns_for(counts)
+    ways = _ROOM.array("ways", bins + 1, columns, WIDTH)
+    before = _ROOM.array("before", bins + 1, columns, WIDTH)
+    spare = _ROOM.array("spare", *evidence.shape[1:])
+    asked = np.zeros(lanes, dtype=np.int64)
+    asked[list(wanted)] = 1
+    for g in range(groups):
+        own = slice(g * WIDTH, (g + 1) * WIDTH)
+        sum_product.fit_orders(
+            evidence[g], asked[own], log_prior, log_by_count[g], probability[own], boundary[g],
+            log_evidence[own], lost[own], cut[own], likely[g],
+            best, ways, before, spare,
+        )  # fmt: skip
+    rows = list(wanted)
+    _refuse_lost(lost[rows])
+    return _Found(
+        np.moveaxis(log_by_count, 1, 2).reshape(lanes, counts)[rows],
+        probability[rows],
+        np.moveaxis(boundary, 1, 2).reshape(lanes, bins)[rows],
+        log_evidence[rows],
+        cut[rows],
+        likely,
+    )
 
 
-def _in_band(
-    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None
-) -> _Found:
-    """Work out the likely M of a long series, with a bound on what is left out."""
+def _in_band(evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int) -> _Found:
+    """Work out the likely M of a long series, with a bound on what is left out.
+
+    `evidence` (D, T, W) becomes probabilities of segments.
+    """
     log_prior = _log_prior(bins, longest)
     rows = len(wanted)
     log_by_count, probability = np.empty((2, rows, bins))
@@ -418,7 +462,7 @@ def _in_band(
         half_width = BAND
         while True:
             kept = evidence[d].copy()
-            log_evidence[i], lost, left_out, price = kernels.fit_order_in_band(
+            log_evidence[i], lost, left_out, price = band.fit_order_in_band(
                 kept, log_prior, half_width, log_by_count[i], probability[i], boundary[i]
             )
             _refuse_lost(np.array([lost]))
@@ -429,7 +473,7 @@ def _in_band(
                 break
             half_width *= 2
         evidence[d] = kept
-    return _Found(log_by_count, probability, boundary, log_evidence, cut)
+    return _Found(log_by_count, probability, boundary, log_evidence, cut, evidence)
 
 
 def _band_cut(
@@ -450,7 +494,7 @@ def _band_cut(
     low, high = int(inside[0]), int(inside[-1]) + 1
     at_price = log_by_count[low:high] - log_prior[low:high] - (inside + 1) * price
     strayed = np.full(bins, np.inf)
-    strayed[low:high] = np.log(max(left_out, ROUNDING)) + logsumexp(at_price)
+    strayed[low:high] = np.log(max(left_out, ROUNDING)) + _log_sum(at_price)
     strayed += (m + 1) * price
     bound = np.full(bins, np.inf)
     share = np.inf
@@ -458,7 +502,7 @@ def _band_cut(
         for tilt in _prices(bins, low, high, step):
             bound = np.minimum(bound, _log_bound(evidence, tilt) + (m + 1) * tilt)
         lacking = np.minimum(bound, strayed) + log_prior - log_evidence
-        share = float(np.exp(np.minimum(0.0, logsumexp(lacking))))
+        share = float(np.exp(np.minimum(0.0, _log_sum(lacking))))
         if share <= BAND_CUT_MASS:
             break
     return share
@@ -470,12 +514,12 @@ def _prices(bins: int, low: int, high: int, step: int) -> list[float]:
     At first for the counts below the window, at twice its end and near one segment a bin; then
     in between, and higher still for the low side, where few segments fit badly.
     """
-    at_low = kernels.price_of_boundary(bins, max(low - 1, 0)) * 4.0 * 8.0**step
+    at_low = sum_product.price_of_boundary(bins, max(low - 1, 0)) * 4.0 * 8.0**step
     at_top = bins - 1 - (bins >> 6)
     ratio = at_top / (2 * high)
     shares = ((0.0, 1.0), (0.5,), (0.25, 0.75), (0.125, 0.375, 0.625, 0.875))[step]
     places = [min(int(2 * high * ratio**share), bins - 1) for share in shares]
-    return [at_low, *(kernels.price_of_boundary(bins, at) for at in places)]
+    return [at_low, *(sum_product.price_of_boundary(bins, at) for at in places)]
 
 
 def _log_bound(evidence: Floats, price: float) -> float:
@@ -484,7 +528,13 @@ def _log_bound(evidence: Floats, price: float) -> float:
     With M + 1 prices put back it bounds the sum over those with M boundaries (Chernoff).
     """
     best, weight = np.empty(len(evidence) + 1), np.empty(evidence.shape)
-    return float(kernels.log_all_ways(evidence, price, best, weight))
+    return float(band.log_all_ways(evidence, price, best, weight))
+
+
+def _log_sum(values: Floats) -> float:
+    """Return the log of the sum of exponentials. SciPy's has a start of its own of 50 us."""
+    top = values.max()
+    return float(top + np.log(np.exp(values - top).sum())) if np.isfinite(top) else float(top)
 
 
 def _refuse_lost(lost: Floats) -> None:
@@ -529,7 +579,7 @@ def _log_compositions(bins: int, longest: int) -> Floats:
     cancelled = np.flatnonzero(total < NO_CANCELLATION)
     first = int(cancelled[-1]) + 1 if len(cancelled) else 0
     out = np.empty(bins)
-    out[:first] = kernels.log_compositions(bins, longest, first)
+    out[:first] = segmentation.log_compositions(bins, longest, first)
     with np.errstate(divide="ignore"):
         out[first:] = largest[first:] + np.log(total[first:])
     return out

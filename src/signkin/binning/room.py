@@ -1,0 +1,41 @@
+"""Memory for the kernels, kept from one trajectory to the next.
+
+What a fit of 100 bins wants, some megabytes, the system would clear anew for each: that takes as
+long as the fit.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+
+import numpy as np
+from numpy.typing import NDArray
+
+LINE = 64  # bytes of a line of the cache: lanes that lie across two take twice as long to load
+MOST_KEPT = 1 << 20  # numbers in one array; larger ones are rare, and would be held for nothing
+
+
+class Room(threading.local):
+    """Arrays by name, for each thread its own."""
+
+    def __init__(self) -> None:
+        self._kept: dict[str, NDArray[np.float64]] = {}
+
+    def array(self, name: str, *shape: int) -> NDArray[np.float64]:
+        """Return an array of any value, which holds until the same name is asked for again."""
+        size = math.prod(shape)
+        room = self._kept.get(name)
+        if room is None or len(room) < size:
+            room = aligned(size)
+            if size <= MOST_KEPT:
+                self._kept[name] = room
+        return room[:size].reshape(shape)
+
+
+def aligned(size: int) -> NDArray[np.float64]:
+    """Return an array of any value that starts on a line of the cache."""
+    per_line = LINE // 8
+    room = np.empty(size + per_line)
+    first = -(room.ctypes.data // 8) % per_line
+    return room[first : first + size]

@@ -1,0 +1,309 @@
+"""Compiled: the evidence of every segment of a trajectory, and expectations over segments.
+
+Lanes are segments that start at eight neighbouring bins. Samples are appended one by one: the
+rotations of prior.Tables bring each into the triangular factor's right side z, and what is left
+of it after order d + 1 rotations is the residual of order d, whose squares and products add up
+to the matrix R (prior.py).
+
+The segments of all orders stand `by_segment`, (G, T, W, 8), the orders as lanes in G groups of
+eight, or `by_order`, (D, T, W): in both at [.., p, n - 1] that of n bins from bin p.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from signkin.binning.lanes import (
+    WIDTH,
+    aligned,
+    any_above,
+    load,
+    log,
+    moved_up,
+    splat,
+    store,
+    total,
+    transpose,
+)
+
+F = NDArray[np.float64]
+I = NDArray[np.int64]  # noqa: E741
+
+LEAST = 1e-13  # probability of a segment that expectations pass over
+
+
+@njit(nogil=True, error_model="numpy", forceinline=True)
+def _append(
+    x: F, at: int, cosine: F, sine: F, n: int, orders: int, z: F, old: int, new: int, r: F, rest: F
+) -> None:  # fmt: skip
+    """Append bin at, at + 1, .. at + 7 to segments of n bins: one each, for the first orders.
+
+    x: (L, ..). z: (.., D, L, 8), read at `old` and written at `new`. r: (D, L (L+1)/2, 8), R's
+    lower triangle row by row, added to. rest: (L, 8) scratch.
+    """
+    dims = x.shape[0]
+    if dims == 3:
+        e0, e1, e2 = load(x, (0, at)), load(x, (1, at)), load(x, (2, at))
+        for d in range(orders):
+            c, s = cosine[n, d], sine[n, d]
+            z0, z1, z2 = (
+                load(z, (old, d, 0, 0)), load(z, (old, d, 1, 0)), load(z, (old, d, 2, 0))
+            )  # fmt: skip
+            store(z, (new, d, 0, 0), c * z0 + s * e0)
+            store(z, (new, d, 1, 0), c * z1 + s * e1)
+            store(z, (new, d, 2, 0), c * z2 + s * e2)
+            e0, e1, e2 = c * e0 - s * z0, c * e1 - s * z1, c * e2 - s * z2
+            store(r, (d, 0, 0), load(r, (d, 0, 0)) + e0 * e0)
+            store(r, (d, 1, 0), load(r, (d, 1, 0)) + e1 * e0)
+            store(r, (d, 2, 0), load(r, (d, 2, 0)) + e1 * e1)
+            store(r, (d, 3, 0), load(r, (d, 3, 0)) + e2 * e0)
+            store(r, (d, 4, 0), load(r, (d, 4, 0)) + e2 * e1)
+            store(r, (d, 5, 0), load(r, (d, 5, 0)) + e2 * e2)
+        return
+    for k in range(dims):
+        store(rest, (k, 0), load(x, (k, at)))
+    for d in range(orders):
+        c, s = cosine[n, d], sine[n, d]
+        q = 0
+        for k in range(dims):
+            y, e = load(z, (old, d, k, 0)), load(rest, (k, 0))
+            store(z, (new, d, k, 0), c * y + s * e)
+            e = c * e - s * y
+            store(rest, (k, 0), e)
+            for m in range(k + 1):
+                store(r, (d, q, 0), load(r, (d, q, 0)) + e * load(rest, (m, 0)))
+                q += 1
+
+
+@njit(nogil=True, error_model="numpy", forceinline=True)
+def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
+    """Fill out[d] (8,) with ln |I + R|, from pivots, which lose nothing.
+
+    factor: (L (L+1)/2, 8) scratch. Logs are long chains of sums: they wait for one another less
+    in a loop of their own.
+    """
+    if dims == 3:
+        for d in range(orders):
+            a00 = 1.0 + load(r, (d, 0, 0))
+            a10, a20 = load(r, (d, 1, 0)), load(r, (d, 3, 0))
+            # The pivots, each times the first one: one division instead of three.
+            b11 = a00 * (1.0 + load(r, (d, 2, 0))) - a10 * a10
+            b21 = a00 * load(r, (d, 4, 0)) - a20 * a10
+            b22 = a00 * (1.0 + load(r, (d, 5, 0))) - a20 * a20
+            store(out, (d, 0), (b11 * b22 - b21 * b21) / a00)
+        for d in range(orders):
+            store(out, (d, 0), log(load(out, (d, 0))))
+        return
+    for d in range(orders):
+        value = splat(0.0)
+        q = 0
+        for k in range(dims):
+            first = q  # of row k
+            for m in range(k + 1):
+                above = m * (m + 1) // 2  # of row m
+                a = load(r, (d, q, 0)) + (1.0 if k == m else 0.0)
+                for j in range(m):
+                    # factor holds the entries times the pivot of their column.
+                    pivot = load(factor, (j * (j + 3) // 2, 0))
+                    a = a - load(factor, (first + j, 0)) * load(factor, (above + j, 0)) / pivot
+                store(factor, (q, 0), a)
+                if k == m:
+                    value = value + log(a)
+                q += 1
+        store(out, (d, 0), value)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def segment_evidence(
+    x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F
+) -> None:  # fmt: skip
+    """Fill out, by segment or by order, with the log evidence of every segment.
+
+    x: (L, T + 8), whitened, 0 behind the last bin. The tables are those of prior.Tables. What
+    would run over the end of the data is left as it was. Lanes beyond the highest order repeat it.
+    """
+    dims = x.shape[0]
+    orders = cosine.shape[1]
+    groups = (orders - 1) // WIDTH + 1
+    longest = out.shape[2]
+    pairs = dims * (dims + 1) // 2
+    z = aligned(orders * dims * WIDTH).reshape((1, orders, dims, WIDTH))
+    r = aligned(orders * pairs * WIDTH).reshape((orders, pairs, WIDTH))
+    rest = aligned(dims * WIDTH).reshape((dims, WIDTH))
+    factor = aligned(pairs * WIDTH).reshape((pairs, WIDTH))
+    values = aligned(groups * WIDTH * WIDTH).reshape((groups * WIDTH, WIDTH))
+    turned = aligned(WIDTH * WIDTH).reshape((WIDTH, WIDTH))
+    for first in range(0, bins, WIDTH):
+        z[:] = 0.0
+        r[:] = 0.0
+        for n in range(min(longest, bins - first)):
+            _append(x, first + n, cosine, sine, n, orders, z, 0, 0, r, rest)
+            _log_determinants(r, orders, dims, factor, values)
+            for d in range(orders):
+                store(values, (d, 0), constant[n, d] - half[n] * load(values, (d, 0)))
+            here = min(WIDTH, bins - first - n)
+            if out.ndim == 4:
+                for d in range(orders, groups * WIDTH):
+                    store(values, (d, 0), load(values, (orders - 1, 0)))
+                for g in range(groups):
+                    transpose(values, (WIDTH * g, 0), turned, (0, 0))
+                    for b in range(here):
+                        store(out, (g, first + b, n, 0), load(turned, (b, 0)))
+            else:
+                for d in range(orders):
+                    for b in range(here):
+                        out[d, first + b, n] = values[d, b]
+
+
+@njit(nogil=True, error_model="numpy")
+def _chances(segments: F, first: int, bins: int, wanted: I, chances: F, turned: F, far: I) -> None:
+    """Fill chances[n] (D, 8) with the probabilities of segments from `first` on, by starts.
+
+    segments: by segment or by order. far: (D,) filled with the bins of the longest that counts.
+    """
+    orders = len(wanted)
+    longest = segments.shape[2]
+    least = splat(LEAST)
+    far[:] = 0
+    for n in range(min(longest, bins - first)):
+        here = min(WIDTH, bins - first - n)
+        if segments.ndim == 4:
+            for g in range(segments.shape[0]):
+                likely = False
+                for b in range(here):
+                    row = load(segments, (g, first + b, n, 0))
+                    store(turned, (b, 0), row)
+                    likely = likely or any_above(row, least)
+                if likely:
+                    for b in range(here, WIDTH):
+                        store(turned, (b, 0), splat(0.0))
+                    transpose(turned, (0, 0), chances, (n, WIDTH * g, 0))
+                else:
+                    for d in range(WIDTH * g, WIDTH * (g + 1)):
+                        store(chances, (n, d, 0), splat(0.0))
+        else:
+            for d in range(orders):
+                for b in range(WIDTH):
+                    chances[n, d, b] = segments[d, first + b, n] if b < here else 0.0
+        for d in range(orders):
+            if wanted[d] and any_above(load(chances, (n, d, 0)), least):
+                far[d] = n + 1
+
+
+@njit(nogil=True, error_model="numpy", forceinline=True)
+def _noise_of_segments(
+    r: F, d: int, n: int, weight: float, chances: F, dims: int, spread: F
+) -> None:  # fmt: skip
+    """Add to spread[d] the squares and products of residuals, I + R, as likely as they are."""
+    share = load(chances, (n, d, 0)) * weight
+    q = 0
+    for k in range(dims):
+        for m in range(k + 1):
+            value = load(r, (d, q, 0)) + (1.0 if k == m else 0.0)
+            store(spread, (d, q, 0), load(spread, (d, q, 0)) + share * value)
+            q += 1
+
+
+@njit(nogil=True, error_model="numpy", forceinline=True)
+def _mean_of_segments(
+    inverse: F, powers: F, z: F, d: int, far: int, chances: F, first: int, dims: int, sums: F,
+    trail: F, mean: F,
+) -> None:  # fmt: skip
+    """Add to mean[d] (L, T + 8) the polynomials of the segments that start at eight bins.
+
+    From the longest segment down: the coefficients of the longer ones, weighed and added up in
+    sums (D, L, 8), hold for all bins of the shorter ones. trail: (L, 8), the last eight bins' sums,
+    which move on by one lane a bin.
+    """
+    least = splat(LEAST)
+    for i in range(d + 1):
+        for k in range(dims):
+            store(sums, (i, k, 0), splat(0.0))
+    for k in range(dims):
+        store(trail, (k, 0), splat(0.0))
+    for n in range(far - 1, -1, -1):
+        chance = load(chances, (n, d, 0))
+        if any_above(chance, least):
+            for i in range(d + 1):
+                for k in range(dims):
+                    value = inverse[n, i, i] * load(z, (n + 1, i, k, 0))
+                    for j in range(i + 1, d + 1):
+                        value = value + inverse[n, i, j] * load(z, (n + 1, j, k, 0))
+                    store(sums, (i, k, 0), load(sums, (i, k, 0)) + chance * value)
+        u = powers[n, 1] if powers.shape[1] > 1 else 0.0
+        for k in range(dims):
+            value = load(sums, (d, k, 0))
+            for i in range(d - 1, -1, -1):
+                value = value * u + load(sums, (i, k, 0))
+            # Lane b is bin first + n + b here, and first + n - 1 + b next.
+            value = moved_up(load(trail, (k, 0))) + value
+            store(trail, (k, 0), value)
+            mean[d, k, first + n + WIDTH - 1] += trail[k, WIDTH - 1]
+    if far > 0:
+        for k in range(dims):
+            for b in range(WIDTH - 1):
+                mean[d, k, first + b] += trail[k, b]
+
+
+@njit(nogil=True, error_model="numpy", forceinline=True)
+def _expectations(
+    x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
+    dims: int, mean: F, noise: F, z: F, chances: F,
+) -> None:  # fmt: skip
+    orders = len(wanted)
+    pairs = dims * (dims + 1) // 2
+    r = aligned(orders * pairs * WIDTH).reshape((orders, pairs, WIDTH))
+    spread = aligned(orders * pairs * WIDTH).reshape((orders, pairs, WIDTH))
+    rest = aligned(dims * WIDTH).reshape((dims, WIDTH))
+    turned = aligned(WIDTH * WIDTH).reshape((WIDTH, WIDTH))
+    sums = aligned(orders * dims * WIDTH).reshape((orders, dims, WIDTH))
+    trail = aligned(dims * WIDTH).reshape((dims, WIDTH))
+    far = np.empty(orders, dtype=np.int64)
+    mean[:] = 0.0
+    spread[:] = 0.0
+    for first in range(0, bins, WIDTH):
+        _chances(segments, first, bins, wanted, chances, turned, far)
+        z[0] = 0.0
+        r[:] = 0.0
+        upto = orders
+        for n in range(far.max()):
+            while far[upto - 1] <= n:
+                upto -= 1  # no longer segments of the highest orders count
+            _append(x, first + n, cosine, sine, n, upto, z, n, n + 1, r, rest)
+            weight = (n + 1) / (2.0 * half[n])
+            for d in range(upto):
+                if n < far[d]:
+                    _noise_of_segments(r, d, n, weight, chances, dims, spread)
+        for d in range(orders):
+            _mean_of_segments(
+                inverse, powers, z, d, far[d], chances, first, dims, sums, trail, mean
+            )  # fmt: skip
+    for d in range(orders):
+        q = 0
+        for k in range(dims):
+            for m in range(k + 1):
+                noise[d, k, m] = total(load(spread, (d, q, 0))) / bins
+                noise[d, m, k] = noise[d, k, m]
+                q += 1
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def expectations(
+    x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
+    mean: F, noise: F, z: F, chances: F,
+) -> None:  # fmt: skip
+    """Fill mean[d] (L, T + 8), averaged over segmentations, and noise[d] (L, L), over bins.
+
+    x: (L, T + 8) whitened, 0 behind the last bin. segments: probabilities of segments, by
+    segment or by order. wanted: (D,) whether an order is; the others become 0. The noise of a
+    segment is the inverse of its expected precision. Behind bin T - 1 the mean is of no meaning.
+    z: (W + 1, D, L, 8) and chances: (W, 8 G, 8) scratch.
+    """
+    # The compiler unrolls loops over dimensions where it knows their number.
+    tables = (cosine, sine, inverse, powers, half)
+    if x.shape[0] == 3:
+        _expectations(x, *tables, bins, segments, wanted, 3, mean, noise, z, chances)
+    else:
+        _expectations(x, *tables, bins, segments, wanted, x.shape[0], mean, noise, z, chances)
