@@ -59,9 +59,7 @@ def log_ways(evidence: F, most: int, table: F) -> None:
                 if any_above(below1, least):
                     sum1 = sum1 + exp(below1)
             # Where there is no way the sum is 0, or not a number.
-            store(
-                table, (q, k, 0), where_above(sum0, tiny, top0 + log(larger(sum0, tiny)), none)
-            )
+            store(table, (q, k, 0), where_above(sum0, tiny, top0 + log(larger(sum0, tiny)), none))
             store(
                 table, (q, k + 1, 0), where_above(sum1, tiny, top1 + log(larger(sum1, tiny)), none)
             )

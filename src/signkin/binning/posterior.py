@@ -16,15 +16,17 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaln
 
-from signkin.binning import band, segmentation, segments, sum_product
+from signkin.binning import band, lanes, log_domain, segmentation, segments, sum_product
 from signkin.binning.lanes import WIDTH
 from signkin.binning.prior import HIGHEST_ORDER, Prior, Tables, tables
 from signkin.binning.room import Room
+from signkin.binning.stale import forget_stale
 from signkin.errors import SignkinError
 
 Floats = NDArray[np.float64]
@@ -40,6 +42,11 @@ TAIL_STEPS = 4
 MOST_NOISES = 1e30  # products of squares overflow above
 NO_CANCELLATION = 0.01
 _ROOM = Room()
+
+KERNELS = (band, lanes, log_domain, segmentation, segments, sum_product)
+forget_stale(
+    Path(segments.segment_evidence.stats.cache_path), [Path(str(m.__file__)) for m in KERNELS]
+)
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 
 

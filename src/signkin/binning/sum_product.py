@@ -16,8 +16,17 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from signkin.binning.lanes import WIDTH, aligned, any_above, exp, larger, load, splat, store
-from signkin.binning.lanes import where_above
+from signkin.binning.lanes import (
+    WIDTH,
+    aligned,
+    any_above,
+    exp,
+    larger,
+    load,
+    splat,
+    store,
+    where_above,
+)
 from signkin.binning.log_domain import log_posterior, log_ways
 
 F = NDArray[np.float64]
@@ -28,7 +37,7 @@ NEGLIGIBLE = 1e-20  # weight, in units of the best path, that posteriors pass ov
 SLOW = 1e-250  # sums below are put to 0: numbers next to the smallest are slow
 MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 # Penalties of a segment in units of ln T, for bounds; those that mostly are enough go first.
-TAIL_PENALTIES = (-0.5, -2.0, 0.0, -8.0, 0.2, 0.5, 1.0, 2.0, 8.0)
+TAIL_PENALTIES = (-1.0, -0.35, -2.0, -0.5, 0.0, -8.0, 0.2, 0.5, 1.0, 2.0, 8.0)
 TAIL_WANTED = 1e-12
 TOGETHER = 4  # numbers of segments that are summed together
 
@@ -293,6 +302,14 @@ def _take(ways: F, best: F, penalty: F, lane: int, low: int, high: int, log_ways
         log_ways[m, lane] = log_sum + best[bins, lane] + (m + 1) * penalty[lane]
 
 
+@njit(nogil=True)
+def _all_reach(values: I, goal: int) -> bool:
+    reached = True
+    for value in values:
+        reached = reached and value >= goal
+    return reached
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def fill_counts(
     evidence: F, wanted: I, log_prior: F, log_by_count: F, weight: F, penalty: F, best: F,
@@ -316,12 +333,16 @@ def fill_counts(
         _take(ways, best, penalty, lane, low[lane], high[lane], log_by_count)
         if not wanted[lane]:
             low[lane], done[lane] = 0, counts
-    if low.max() > 0:
-        table = np.empty((bins + 1, low.max() + 4, WIDTH))
-        log_ways(evidence, low.max(), table)
+    lowest = 0
+    for lane in range(WIDTH):
+        lowest = max(lowest, low[lane])
+    if lowest > 0:
+        table = np.empty((bins + 1, lowest + 4, WIDTH))
+        log_ways(evidence, lowest, table)
         for lane in range(WIDTH):
-            log_by_count[: low[lane], lane] = table[bins, 1 : low[lane] + 1, lane]
-    if done.min() < counts:
+            for m in range(low[lane]):
+                log_by_count[m, lane] = table[bins, m + 1, lane]
+    if not _all_reach(done, counts):
         _far_counts(evidence, log_by_count, done, best, spare_ways, spare)
     again = False
     for lane in range(WIDTH):
@@ -354,10 +375,13 @@ def _far_counts(
     counts = len(log_by_count)
     penalty = np.full(WIDTH, math.log(bins))
     first, last, segments = np.empty((3, WIDTH), dtype=np.int64)
-    stuck = np.zeros(WIDTH, dtype=np.bool_)
+    stuck, active = np.zeros((2, WIDTH), dtype=np.int64)
     while True:
-        active = (done < counts) & ~stuck
-        if not active.any():
+        going = False
+        for lane in range(WIDTH):
+            active[lane] = done[lane] < counts and not stuck[lane]
+            going = going or active[lane]
+        if not going:
             break
         _favour(evidence, done, active, penalty, best, segments)
         linear_pass(evidence, penalty, counts, best, weight, ways, first, last)
@@ -365,15 +389,16 @@ def _far_counts(
             if not active[lane]:
                 continue
             if first[lane] > done[lane] or last[lane] <= done[lane]:
-                stuck[lane] = True
+                stuck[lane] = 1
             else:
                 _take(ways, best, penalty, lane, done[lane], last[lane], log_by_count)
                 done[lane] = last[lane]
-    if done.min() < counts:
+    if not _all_reach(done, counts):
         table = np.empty((bins + 1, counts + 4, WIDTH))
         log_ways(evidence, counts, table)
         for lane in range(WIDTH):
-            log_by_count[done[lane] :, lane] = table[bins, done[lane] + 1 : counts + 1, lane]
+            for m in range(done[lane], counts):
+                log_by_count[m, lane] = table[bins, m + 1, lane]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -457,7 +482,10 @@ def tail_shares(evidence: F, wanted: I, log_by_count: F, best: F, share: F) -> N
 def _log_sum(values: F) -> float:
     """Return the log of the sum of exponentials."""
     top = values.max()
-    return top + math.log(np.sum(np.exp(values - top)))
+    sum_ = 0.0
+    for value in values:
+        sum_ += math.exp(value - top)
+    return top + math.log(sum_)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -470,8 +498,8 @@ def fit_orders(
     evidence: (T, W, 8). wanted: (8,) whether a lane is: what the others are filled with has no
     meaning. log_prior: (C,). log_by_count: (C, 8). probability: (8, C) P(M | D). boundary: (T, 8)
     probability that a segment ends with bin q. log_evidence, lost (mass of P(M | D) that was lost
-    to underflow), cut: (8,). segments: (T, W, 8) probabilities of segments. best, ways, before (like
-    ways), spare (like segments): scratch.
+    to underflow), cut: (8,). segments: (T, W, 8) probabilities of segments. best, ways, before
+    (like ways), spare (like segments): scratch.
     """
     bins = evidence.shape[0]
     counts = len(log_prior)
@@ -485,6 +513,7 @@ def fit_orders(
     tail_shares(evidence, wanted, log_by_count, best, cut)
     before[0] = 0.0
     most = 0
+    again = False
     for lane in range(WIDTH):
         log_evidence[lane] = _log_sum(log_by_count[:, lane])
         least = 1.0  # of the sums that matter: a segment must be negligible beside the smallest
@@ -500,7 +529,10 @@ def fit_orders(
                 least = min(least, sum_)
                 most = max(most, m + 1)
         negligible[lane] = NEGLIGIBLE * least
-        lost[lane] = mass[:, lane].sum()
+        lost[lane] = 0.0
+        for m in range(counts):
+            lost[lane] += mass[m, lane]
+        again = again or lost[lane] > MOST_LOST
     ways_from(segments, most, before)
     for q in range(1, bins):
         value = splat(0.0)
@@ -508,11 +540,12 @@ def fit_orders(
             value = value + load(before, (q, k, 0)) * load(ways, (q, k, 0))
         store(boundary, (q - 1, 0), value)
     segment_probabilities(segments, ways, before, most, negligible)
-    if lost.max() > MOST_LOST:
+    if again:
         for lane in range(WIDTH):
-            if lost[lane] <= MOST_LOST:
-                mass[:, lane] = 0.0
-            else:
+            if lost[lane] > MOST_LOST:
                 lost[lane] = 0.0
+            else:
+                for m in range(counts):
+                    mass[m, lane] = 0.0
         log_posterior(evidence, mass, boundary, segments)
     boundary[bins - 1] = 1.0
