@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.special import gammaln, logsumexp
 
-from signkin.binning import Prior, fit, kernels, segment_log_evidence
+from signkin.binning import Prior, fit, segment_log_evidence, sum_product
+from signkin.binning.lanes import WIDTH
 from signkin.pipeline.binning import FITTED_MAP, study
 from signkin.pipeline.endres2013 import hit_rates, known_boundaries, order_posteriors
 from signkin.pipeline.single_signs import RECORDED, single_signs
@@ -100,19 +101,22 @@ def slow_posterior(evidence):
 
 def lost_by_the_linear_pass(x, prior):
     """Return the mass of P(M | D) that the pass in the linear domain does not cover."""
-    evidence = np.zeros((BINS, BINS))
+    evidence = np.zeros((BINS, BINS, WIDTH))
     whole = segment_log_evidence(x, ORDER, prior)
     for i in range(BINS):
-        evidence[i, : BINS - i] = whole[i, i:]
+        evidence[i, : BINS - i] = whole[i, i:, None]
     m = np.arange(BINS)
     log_prior = -np.log(BINS) - (gammaln(BINS) - gammaln(m + 1) - gammaln(BINS - m))
-    log_by_count, mass = np.empty((2, BINS))
-    offset = np.zeros(BINS + 1, dtype=np.int64)
-    ways = np.empty((BINS + 1, kernels.columns_for(BINS)))
-    kernels.counts_of_order(
-        evidence, log_prior, log_by_count, np.empty((BINS, BINS)), np.empty(BINS + 1), offset, ways
-    )
-    return kernels.uncovered(log_by_count, offset, ways, mass)
+    log_by_count = np.empty((BINS, WIDTH))
+    ways, spare_ways = np.empty((2, BINS + 1, sum_product.columns_for(BINS), WIDTH))
+    weight, spare = np.empty((2, *evidence.shape))
+    wanted, low, high = np.ones((3, WIDTH), dtype=np.int64)
+    sum_product.fill_counts(
+        evidence, wanted, log_prior, log_by_count, weight, np.empty(WIDTH),
+        np.empty((BINS + 1, WIDTH)), ways, low, high, spare_ways, spare,
+    )  # fmt: skip
+    mass = np.exp(log_by_count[:, 0] - logsumexp(log_by_count[:, 0]))
+    return mass[ways[0, 1 : BINS + 1, 0] < sum_product.UNDERFLOW].sum()
 
 
 @pytest.mark.parametrize(
@@ -123,7 +127,7 @@ def test_two_peaks_far_apart_are_both_weighed(amplitude, seed, falls_back):
     x, prior = waving(amplitude, seed), Prior(noise_sd=NOISE_SD)
     lost = lost_by_the_linear_pass(x, prior)
     # Where the linear domain loses a peak, it is that of one segment a bin or that of few.
-    assert (lost > 1e-7) if falls_back else (lost < kernels.MOST_LOST)
+    assert (lost > 1e-7) if falls_back else (lost < sum_product.MOST_LOST)
     count, boundary, evidence = slow_posterior(segment_log_evidence(x, ORDER, prior))
     if falls_back:
         few, many = count[: BINS // 2].sum(), count[BINS // 2 :].sum()
@@ -134,3 +138,29 @@ def test_two_peaks_far_apart_are_both_weighed(amplitude, seed, falls_back):
     assert found.boundary_probability(ORDER) == pytest.approx(boundary, abs=1e-9)
     expected_count = float((np.arange(BINS) * count).sum())
     assert found.boundary_probability(ORDER).sum() == pytest.approx(expected_count, abs=1e-7)
+
+
+@pytest.mark.parametrize("longest", [BINS, 20])
+@pytest.mark.parametrize("size", [1.0, 30.0, 1000.0])
+def test_sums_far_below_the_largest_are_as_exact(size, longest):
+    # Few segments fit a wild walk worse by thousands of units than many do, or the other way.
+    x = size * NOISE_SD * np.cumsum(np.random.default_rng(5).normal(size=(BINS, 2)), axis=0)
+    prior, orders = Prior(noise_sd=NOISE_SD), [0, 3, 8]
+    found = fit(x, orders, prior, max_segment_bins=longest)
+    spread = []
+    for row, order in enumerate(orders):
+        evidence = segment_log_evidence(x, order, prior)
+        i, j = np.indices(evidence.shape)
+        sums = log_sums(np.where(j - i < longest, evidence, -np.inf))[0][BINS, 1:]
+        possible = np.isfinite(sums)
+        ours = found.log_evidence_by_count[row]
+        assert (np.isfinite(ours) == possible).all()
+        # What one segmentation of a count weighs is the same for all orders.
+        share = ours[possible] - sums[possible]
+        if row == 0:
+            m = np.arange(BINS)
+            cuts = gammaln(BINS) - gammaln(m + 1) - gammaln(BINS - m)
+            expected = -cuts if longest == BINS else share
+        np.testing.assert_allclose(share, expected, rtol=0, atol=1e-7)
+        spread.append(np.ptp(sums[possible]))
+    assert max(spread) > -np.log(sum_product.UNDERFLOW)

@@ -27,6 +27,8 @@ _DOUBLE, _WHOLE, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
 _DOUBLES, _WHOLES = ir.VectorType(_DOUBLE, WIDTH), ir.VectorType(_WHOLE, WIDTH)
 _ANYTHING = ir.Constant(_DOUBLES, ir.Undefined)
 
+_inline: Any = intrinsic  # a checker of types takes what it makes for a class
+
 
 class Lanes(types.Type):
     """The type of eight numbers."""
@@ -82,7 +84,7 @@ _define(operator.mul, "fmul")
 _define(operator.truediv, "fdiv")
 
 
-@intrinsic
+@_inline
 def splat(_typing: Any, _x: Any) -> Any:
     """Return lanes that are all x."""
 
@@ -92,7 +94,7 @@ def splat(_typing: Any, _x: Any) -> Any:
     return LANES(types.float64), codegen
 
 
-@intrinsic
+@_inline
 def larger(_typing: Any, a: Any, b: Any) -> Any:
     """Return the larger of each pair of lanes."""
 
@@ -103,7 +105,7 @@ def larger(_typing: Any, a: Any, b: Any) -> Any:
     return LANES(a, b), codegen
 
 
-@intrinsic
+@_inline
 def where_above(_typing: Any, x: Any, limit: Any, value: Any, otherwise: Any) -> Any:
     """Return `value` in the lanes in which x is above the limit, `otherwise` in the others."""
 
@@ -114,7 +116,7 @@ def where_above(_typing: Any, x: Any, limit: Any, value: Any, otherwise: Any) ->
     return LANES(x, limit, value, otherwise), codegen
 
 
-@intrinsic
+@_inline
 def any_above(_typing: Any, x: Any, limit: Any) -> Any:
     """Return whether x is above the limit in some lane."""
 
@@ -126,7 +128,7 @@ def any_above(_typing: Any, x: Any, limit: Any) -> Any:
     return types.boolean(x, limit), codegen
 
 
-@intrinsic
+@_inline
 def total(_typing: Any, x: Any) -> Any:
     """Return the sum of the lanes, by halves: always in the same order."""
 
@@ -140,7 +142,7 @@ def total(_typing: Any, x: Any) -> Any:
     return types.float64(x), codegen
 
 
-@intrinsic
+@_inline
 def moved_up(_typing: Any, x: Any) -> Any:
     """Return each lane's neighbour below, and 0 in the first."""
 
@@ -168,7 +170,7 @@ def _place(context: Any, builder: Any, kinds: Any, values: Any) -> Any:
     return builder.bitcast(address, _DOUBLES.as_pointer())
 
 
-@intrinsic
+@_inline
 def load(_typing: Any, array: Any, place: Any) -> Any:
     """Return eight elements of an array from `place`, a full index, along the last axis."""
 
@@ -180,7 +182,7 @@ def load(_typing: Any, array: Any, place: Any) -> Any:
     return LANES(array, place), codegen
 
 
-@intrinsic
+@_inline
 def store(_typing: Any, array: Any, place: Any, value: Any) -> Any:
     """Write lanes to eight elements of an array from `place`, a full index, on."""
 
@@ -192,7 +194,7 @@ def store(_typing: Any, array: Any, place: Any, value: Any) -> Any:
     return types.void(array, place, value), codegen
 
 
-@intrinsic
+@_inline
 def transpose(_typing: Any, source: Any, at: Any, target: Any, to: Any) -> Any:
     """Write the columns of the eight rows from `at` on to the eight rows from `to` on.
 
@@ -260,7 +262,7 @@ def _same_everywhere(value: int) -> Any:
     return ir.Constant(_WHOLES, [value] * WIDTH)
 
 
-@intrinsic
+@_inline
 def _mantissa(_typing: Any, x: Any) -> Any:
     """Return x divided by the power of two that brings it to sqrt(1/2) .. sqrt(2)."""
 
@@ -275,7 +277,7 @@ def _mantissa(_typing: Any, x: Any) -> Any:
     return LANES(x), codegen
 
 
-@intrinsic
+@_inline
 def _power(_typing: Any, x: Any) -> Any:
     """Return the exponent of that power of two, plus _ROUND."""
 
@@ -289,7 +291,7 @@ def _power(_typing: Any, x: Any) -> Any:
     return LANES(x), codegen
 
 
-@intrinsic
+@_inline
 def _to_the_power(_typing: Any, k: Any) -> Any:
     """Return two to the power of k, whole numbers with _ROUND added."""
 

@@ -45,7 +45,7 @@ _ROOM = Room()
 
 KERNELS = (band, lanes, log_domain, segmentation, segments, sum_product)
 forget_stale(
-    Path(segments.segment_evidence.stats.cache_path), [Path(str(m.__file__)) for m in KERNELS]
+    Path(str(segments.segment_evidence.stats.cache_path)), [Path(str(m.__file__)) for m in KERNELS]
 )
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 
