@@ -39,6 +39,7 @@ MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 # Penalties of a segment in units of ln T, for bounds; those that mostly are enough go first.
 TAIL_PENALTIES = (-1.0, -0.35, -2.0, -0.5, 0.0, -8.0, 0.2, 0.5, 1.0, 2.0, 8.0)
 TAIL_WANTED = 1e-12
+CLOSE = 0.5  # to the limit where a best path gets one segment more: a penalty is near enough
 TOGETHER = 4  # numbers of segments that are summed together
 
 
@@ -53,30 +54,29 @@ def columns_for(most: int) -> int:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def best_paths(evidence: F, penalty: F, best: F, segments: I) -> None:
-    """Fill best[p], the largest sum of (log evidence - penalty) over segmentations of p bins.
+    """Fill best[p], the largest sum of (log evidence - penalty) over segmentations of bins p...
 
     penalty: (8,). segments: (8,), filled with the number of segments of the best segmentation of
     all T bins.
     """
     bins, longest, _ = evidence.shape
     price = load(penalty, (0,))
-    store(best, (0, 0), splat(0.0))
-    for q in range(1, bins + 1):
+    store(best, (bins, 0), splat(0.0))
+    for p in range(bins - 1, -1, -1):
         value = splat(-np.inf)
-        for p in range(max(0, q - longest), q):
-            value = larger(value, load(best, (p, 0)) + load(evidence, (p, q - 1 - p, 0)))
-        store(best, (q, 0), value - price)
+        for n in range(min(longest, bins - p)):
+            value = larger(value, load(evidence, (p, n, 0)) + load(best, (p + 1 + n, 0)))
+        store(best, (p, 0), value - price)
     for lane in range(WIDTH):
-        count = 0
-        q = bins
-        while q > 0:
-            for n in range(min(longest, q)):
-                p = q - 1 - n
-                if (best[p, lane] + evidence[p, n, lane]) - penalty[lane] == best[q, lane]:
-                    q = p
+        segments[lane] = 0
+        p = 0
+        while p < bins:
+            segments[lane] += 1
+            for n in range(min(longest, bins - p)):
+                value = (evidence[p, n, lane] + best[p + 1 + n, lane]) - penalty[lane]
+                if value == best[p, lane]:
+                    p += 1 + n
                     break
-            count += 1
-        segments[lane] = count
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -85,16 +85,14 @@ def scaled_evidence(evidence: F, penalty: F, best: F, out: F) -> None:
     bins, longest, _ = evidence.shape
     price = load(penalty, (0,))
     for p in range(bins):
-        base = load(best, (p, 0)) - price
+        base = load(best, (p, 0)) + price
         for n in range(min(longest, bins - p)):
-            value = (base + load(evidence, (p, n, 0))) - load(best, (p + 1 + n, 0))
+            value = (load(evidence, (p, n, 0)) + load(best, (p + 1 + n, 0))) - base
             store(out, (p, n, 0), exp(value))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def settle_penalties(
-    evidence: F, most: int, tolerance: float, penalty: F, best: F, segments: I
-) -> None:
+def settle_penalties(evidence: F, most: int, penalty: F, best: F, segments: I) -> None:
     """Raise each penalty until its best path has at most `most` segments, and fill best."""
     best_paths(evidence, penalty, best, segments)
     low, high = np.full((2, WIDTH), np.inf)
@@ -111,7 +109,7 @@ def settle_penalties(
             if high[lane] == np.inf:
                 penalty[lane] += step
                 settled = False
-            elif high[lane] - low[lane] >= tolerance:
+            elif high[lane] - low[lane] >= CLOSE:
                 penalty[lane] = 0.5 * (low[lane] + high[lane])
                 settled = False
             elif penalty[lane] != high[lane]:
@@ -296,10 +294,9 @@ def linear_pass(
 @njit(nogil=True, error_model="numpy")
 def _take(ways: F, best: F, penalty: F, lane: int, low: int, high: int, log_ways: F) -> None:
     """Write the logs of the sums for M = low..high - 1 that a pass covers. log_ways: (C, 8)."""
-    bins = len(best) - 1
     for m in range(low, high):
         log_sum = math.log(ways[0, m + 1, lane])
-        log_ways[m, lane] = log_sum + best[bins, lane] + (m + 1) * penalty[lane]
+        log_ways[m, lane] = log_sum + best[0, lane] + (m + 1) * penalty[lane]
 
 
 @njit(nogil=True)
@@ -325,7 +322,7 @@ def fill_counts(
     counts = len(log_prior)
     segments = np.empty(WIDTH, dtype=np.int64)
     penalty[:] = math.log(bins)
-    settle_penalties(evidence, counts, 0.05, penalty, best, segments)
+    settle_penalties(evidence, counts, penalty, best, segments)
     linear_pass(evidence, penalty, counts, best, weight, ways, low, high)
     log_by_count[:] = -np.inf
     done = high.copy()
@@ -341,7 +338,7 @@ def fill_counts(
         log_ways(evidence, lowest, table)
         for lane in range(WIDTH):
             for m in range(low[lane]):
-                log_by_count[m, lane] = table[bins, m + 1, lane]
+                log_by_count[m, lane] = table[0, m + 1, lane]
     if not _all_reach(done, counts):
         _far_counts(evidence, log_by_count, done, best, spare_ways, spare)
     again = False
@@ -358,7 +355,7 @@ def fill_counts(
             penalty[lane] = price
             again = True
     if again:
-        settle_penalties(evidence, counts, 0.05, penalty, best, segments)
+        settle_penalties(evidence, counts, penalty, best, segments)
         linear_pass(evidence, penalty, counts, best, weight, ways, low, high)
 
 
@@ -398,7 +395,7 @@ def _far_counts(
         log_ways(evidence, counts, table)
         for lane in range(WIDTH):
             for m in range(done[lane], counts):
-                log_by_count[m, lane] = table[bins, m + 1, lane]
+                log_by_count[m, lane] = table[0, m + 1, lane]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -422,7 +419,7 @@ def _favour(evidence: F, least: I, active: I, penalty: F, best: F, segments: I) 
             if low[lane] == -np.inf:
                 penalty[lane] = high[lane] - step
                 settled = False
-            elif high[lane] - low[lane] >= 0.5:
+            elif high[lane] - low[lane] >= CLOSE:
                 penalty[lane] = 0.5 * (low[lane] + high[lane])
                 settled = False
             elif penalty[lane] != low[lane]:
@@ -461,7 +458,7 @@ def tail_shares(evidence: F, wanted: I, log_by_count: F, best: F, share: F) -> N
         penalty[:] = price
         best_paths(evidence, penalty, best, segments)
         sum_ = splat(0.0)
-        path = load(best, (bins, 0))
+        path = load(best, (0, 0))
         for m in range(counts, bins):
             old, new = load(bound, (m, 0)), path + (m + 1) * price
             lesser = where_above(old, new, new, old)
