@@ -12,7 +12,7 @@ from signkin.binning.prior import Prior
 def compile_kernels() -> None:
     """Run every compiled function on small data; numba keeps the code beside the sources.
 
-    Takes some 20 s the first time, and again when the code or numba has changed; else nothing.
+    Takes some 25 s the first time, and again when the code or numba has changed; else nothing.
     """
     rng = np.random.default_rng(0)
     prior = Prior(noise_sd=1.0)
