@@ -282,6 +282,16 @@ def test_maxima_are_taken_once_each_with_room_around_them():
     assert greedy_maxima(np.array([0.5, 0, 0, 0, 0.5]), 9).tolist() == [0, 4]
 
 
+def test_maxima_that_differ_by_rounding_are_taken_from_the_first_on():
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        everywhere = 1.0 - rng.uniform(0, 1e-12, 30)
+        assert list(greedy_maxima(everywhere, 4)) == [0, 4, 8, 12]
+        near_zero = everywhere * 1e-200
+        assert list(greedy_maxima(near_zero, 4)) == [0, 4, 8, 12]
+    assert list(greedy_maxima(np.array([0.2, 0.0, 0.0, 0.0, 0.2 + 1e-9]), 1)) == [4]
+
+
 def test_expectations_that_were_not_asked_for_are_told():
     found = fit(walk(20, 2, 0), (0, 3), PRIOR, expectations=False)
     with pytest.raises(SignkinError, match="expectations"):

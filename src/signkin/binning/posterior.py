@@ -38,6 +38,7 @@ EVERY_COUNT_UP_TO = 256
 BAND = 32
 BAND_CUT_MASS = 1e-6
 CLEARANCE_BINS = 3
+DIGITS_2 = 30  # binary digits, nine decimal ones, to which probabilities are compared
 TAIL_STEPS = 4
 MOST_NOISES = 1e30  # products of squares overflow above
 NO_CANCELLATION = 0.01
@@ -281,8 +282,14 @@ def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None
 
 
 def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:
-    """Return the places of up to `count` largest local maxima, 3 bins cleared around each."""
-    left = np.asarray(probability, dtype=float)
+    """Return the places of up to `count` largest local maxima, 3 bins cleared around each.
+
+    Values that agree to 9 digits are taken for the same, and the first goes first: where every
+    bin is a boundary, the order would otherwise be that of rounding.
+    """
+    given = np.asarray(probability, dtype=float)
+    _, exponent = np.frexp(given)
+    left = np.ldexp(np.round(np.ldexp(given, DIGITS_2 - exponent)), exponent - DIGITS_2)
     padded = np.concatenate([[-np.inf], left, [-np.inf]])
     peak = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:]) & (left > 0)
     free = np.where(peak, left, -np.inf)
