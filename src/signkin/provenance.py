@@ -66,7 +66,10 @@ def _files_of(name: str) -> Iterator[Path]:
 
 
 def _with_data_files(modules: set[Path]) -> set[Path]:
-    """Add the files that are not Python below each subpackage (templates)."""
+    """Add the files that are not Python below each subpackage (templates).
+
+    Not those of caches: what numba compiles lies in one from the first run on.
+    """
     packages = {m.parent for m in modules if m.name == "__init__.py" and m.parent != PACKAGE}
     data = (p for package in packages for p in package.rglob("*") if p.is_file())
-    return modules | {p for p in data if p.suffix not in (".py", ".pyc")}
+    return modules | {p for p in data if p.suffix != ".py" and "__pycache__" not in p.parts}

@@ -139,6 +139,16 @@ def test_a_digest_follows_what_a_script_imports(package, name, changes):
     assert digest() != before
 
 
+def test_a_digest_is_the_same_before_and_after_code_is_compiled(package):
+    home, _, digest = package
+    before = digest()
+    kept = home / "sub/__pycache__"
+    kept.mkdir()
+    for name in ("b.f-1.py311.nbi", "b.f-1.py311.1.nbc", "b.cpython-311.pyc"):
+        (kept / name).write_text("compiled")
+    assert digest() == before
+
+
 def test_every_workflow_script_has_a_digest(root):
     for script in sorted((root / "workflow/scripts").glob("*.py")):
         assert len(provenance.code_digest(script)) == 16
