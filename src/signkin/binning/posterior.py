@@ -178,8 +178,9 @@ def fit(
     orders: polynomial orders. prior: mandatory. dt_s: duration of a bin, for
     Prior(time_unit="second"). max_count: the largest M worked out; None is every M up to 256
     bins, and above those around the likely M, the others being -inf; either way `cut_mass`
-    bounds the share of P(M | D) that is left out. A count takes 128 bytes of memory a bin. max_segment_bins: the longest segment;
-    segmentations with longer ones have no prior probability, the others share it evenly.
+    bounds the share of P(M | D) that is left out. A count takes 128 bytes of memory a bin.
+    max_segment_bins: the longest segment; segmentations with longer ones have no prior
+    probability, the others share it evenly.
     expectations: whether to work out expected trajectories and noise too.
 
     Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
