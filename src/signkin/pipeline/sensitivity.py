@@ -142,9 +142,10 @@ def _hits(powerlaw: pd.DataFrame, line: ChanceLine | None) -> dict[str, Any]:
     ratios = {}
     out: dict[str, Any] = {}
     for order, rows in powerlaw.groupby("order"):
+        columns = (rows[name] for name in ("hits", "misses", "false_positives", "duration_s"))
         rates = [
-            HitRate(int(r.hits), int(r.misses), int(r.false_positives), r.duration_s)
-            for r in rows.itertuples()
+            HitRate(int(hits), int(misses), int(false_positives), duration_s)
+            for hits, misses, false_positives, duration_s in zip(*columns, strict=True)
         ]
         # Only the ratio itself is wanted here, not its bootstrap.
         ratios[int(order)] = hpfpps(rates, 0, draws=2).value
