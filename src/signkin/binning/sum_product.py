@@ -40,6 +40,7 @@ MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 TAIL_PENALTIES = (-1.0, -0.35, -2.0, -0.5, 0.0, -8.0, 0.2, 0.5, 1.0, 2.0, 8.0)
 TAIL_WANTED = 1e-12
 CLOSE = 0.5  # to the limit where a best path gets one segment more: a penalty is near enough
+FIRST_STEP = 4.0  # of a penalty that is looked for; the next ones double
 TOGETHER = 4  # numbers of segments that are summed together
 
 
@@ -95,30 +96,51 @@ def scaled_evidence(evidence: F, penalty: F, best: F, out: F) -> None:
 def settle_penalties(evidence: F, most: int, penalty: F, best: F, segments: I) -> None:
     """Raise each penalty until its best path has at most `most` segments, and fill best."""
     best_paths(evidence, penalty, best, segments)
-    low, high = np.full((2, WIDTH), np.inf)
-    step = 4.0
-    for _ in range(80):
+    goal, active = np.full((2, WIDTH), most)
+    going = False
+    for lane in range(WIDTH):
+        active[lane] = segments[lane] > most
+        going = going or active[lane]
+    if going:
+        _move_penalties(evidence, goal, 1, active, penalty, best, segments)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _move_penalties(
+    evidence: F, goal: I, way: int, active: I, penalty: F, best: F, segments: I
+) -> None:
+    """Move the active penalties, up or down, until their best paths reach a number of segments.
+
+    way: 1, up until it is at most the goal; -1, down until it is at least that. No further than
+    that wants, but for CLOSE. Fills best, too.
+    """
+    reached, missed = np.full(WIDTH, np.nan), penalty.copy()
+    step = FIRST_STEP
+    for lane in range(WIDTH):
+        if active[lane]:
+            penalty[lane] += way * step
+    for _ in range(100):
+        best_paths(evidence, penalty, best, segments)
         settled = True
         for lane in range(WIDTH):
-            if segments[lane] <= most:
-                high[lane] = penalty[lane]
-                if low[lane] == np.inf:
-                    continue  # the first was good enough
+            if not active[lane]:
+                continue
+            if way * segments[lane] <= way * goal[lane]:
+                reached[lane] = penalty[lane]
             else:
-                low[lane] = penalty[lane]
-            if high[lane] == np.inf:
-                penalty[lane] += step
+                missed[lane] = penalty[lane]
+            if math.isnan(reached[lane]):
+                penalty[lane] += way * step
                 settled = False
-            elif high[lane] - low[lane] >= CLOSE:
-                penalty[lane] = 0.5 * (low[lane] + high[lane])
+            elif abs(reached[lane] - missed[lane]) >= CLOSE:
+                penalty[lane] = 0.5 * (reached[lane] + missed[lane])
                 settled = False
-            elif penalty[lane] != high[lane]:
-                penalty[lane] = high[lane]
+            elif penalty[lane] != reached[lane]:
+                penalty[lane] = reached[lane]
                 settled = False
         if settled:
             return
         step *= 2.0
-        best_paths(evidence, penalty, best, segments)
 
 
 # --- sums over segmentations, by the number of segments --------------------------------------
@@ -372,15 +394,16 @@ def _far_counts(
     counts = len(log_by_count)
     penalty = np.full(WIDTH, math.log(bins))
     first, last, segments = np.empty((3, WIDTH), dtype=np.int64)
-    stuck, active = np.zeros((2, WIDTH), dtype=np.int64)
+    stuck, active, goal = np.zeros((3, WIDTH), dtype=np.int64)
     while True:
         going = False
         for lane in range(WIDTH):
             active[lane] = done[lane] < counts and not stuck[lane]
+            goal[lane] = done[lane] + 1
             going = going or active[lane]
         if not going:
             break
-        _favour(evidence, done, active, penalty, best, segments)
+        _move_penalties(evidence, goal, -1, active, penalty, best, segments)
         linear_pass(evidence, penalty, counts, best, weight, ways, first, last)
         for lane in range(WIDTH):
             if not active[lane]:
@@ -396,38 +419,6 @@ def _far_counts(
         for lane in range(WIDTH):
             for m in range(done[lane], counts):
                 log_by_count[m, lane] = table[0, m + 1, lane]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _favour(evidence: F, least: I, active: I, penalty: F, best: F, segments: I) -> None:
-    """Lower the active penalties until their best paths have at least `least` boundaries."""
-    low, high = np.full(WIDTH, -np.inf), penalty.copy()
-    step = 8.0
-    for lane in range(WIDTH):
-        if active[lane]:
-            penalty[lane] -= step
-    for _ in range(100):
-        best_paths(evidence, penalty, best, segments)
-        settled = True
-        for lane in range(WIDTH):
-            if not active[lane]:
-                continue
-            if segments[lane] - 1 >= least[lane]:
-                low[lane] = penalty[lane]
-            else:
-                high[lane] = penalty[lane]
-            if low[lane] == -np.inf:
-                penalty[lane] = high[lane] - step
-                settled = False
-            elif high[lane] - low[lane] >= CLOSE:
-                penalty[lane] = 0.5 * (low[lane] + high[lane])
-                settled = False
-            elif penalty[lane] != low[lane]:
-                penalty[lane] = low[lane]
-                settled = False
-        if settled:
-            return
-        step *= 2.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
