@@ -382,19 +382,18 @@ def _whitened(x: Floats, prior: Prior) -> Floats:
 def _by_segment(whitened: Floats, bins: int, made: Tables, longest: int) -> Floats:
     """Return the log evidence of all segments, (G, T, W, 8)."""
     groups = -(-made.cosine.shape[1] // WIDTH)
-    out = _ROOM.array("evidence", groups, bins, longest, WIDTH)
-    segments.segment_evidence(
-        whitened, made.cosine, made.sine, made.constant, made.half, bins, out
-    )  # fmt: skip
-    return out
+    return _filled(_ROOM.array("evidence", groups, bins, longest, WIDTH), whitened, bins, made)
 
 
 def _by_order(whitened: Floats, bins: int, made: Tables, longest: int) -> Floats:
     """Return the log evidence of all segments, (D, T, W)."""
-    out = _ROOM.array("evidence", made.cosine.shape[1], bins, longest)
-    segments.segment_evidence(
-        whitened, made.cosine, made.sine, made.constant, made.half, bins, out
-    )  # fmt: skip
+    orders = made.cosine.shape[1]
+    return _filled(_ROOM.array("evidence", orders, bins, longest), whitened, bins, made)
+
+
+def _filled(out: Floats, whitened: Floats, bins: int, made: Tables) -> Floats:
+    tables_of_evidence = (made.cosine, made.sine, made.constant, made.half)
+    segments.segment_evidence(whitened, *tables_of_evidence, bins, out)
     return out
 
 
@@ -431,18 +430,18 @@ def _counted(
     counts = most + 1
     log_prior = np.ascontiguousarray(_log_prior(bins, longest)[:counts])
     groups = len(evidence)
-    lanes = groups * WIDTH
+    held = groups * WIDTH
     log_by_count = np.empty((groups, counts, WIDTH))
-    probability = np.empty((lanes, counts))
+    probability = np.empty((held, counts))
     boundary = np.empty((groups, bins, WIDTH))
-    log_evidence, lost, cut = np.empty((3, lanes))
+    log_evidence, lost, cut = np.empty((3, held))
     likely = _ROOM.array("probabilities", *evidence.shape)
     best = _ROOM.array("best", bins + 1, WIDTH)
     columns = sum_product.columns_for(counts)
     ways = _ROOM.array("ways", bins + 1, columns, WIDTH)
     before = _ROOM.array("before", bins + 1, columns, WIDTH)
     spare = _ROOM.array("spare", *evidence.shape[1:])
-    asked = np.zeros(lanes, dtype=np.int64)
+    asked = np.zeros(held, dtype=np.int64)
     asked[list(wanted)] = 1
     for g in range(groups):
         own = slice(g * WIDTH, (g + 1) * WIDTH)
@@ -454,9 +453,9 @@ def _counted(
     rows = list(wanted)
     _refuse_lost(lost[rows])
     return _Found(
-        np.moveaxis(log_by_count, 1, 2).reshape(lanes, counts)[rows],
+        np.moveaxis(log_by_count, 1, 2).reshape(held, counts)[rows],
         probability[rows],
-        np.moveaxis(boundary, 1, 2).reshape(lanes, bins)[rows],
+        np.moveaxis(boundary, 1, 2).reshape(held, bins)[rows],
         log_evidence[rows],
         cut[rows],
         likely,
