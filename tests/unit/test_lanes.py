@@ -18,7 +18,7 @@ from signkin.binning.lanes import (
     transpose,
     where_above,
 )
-from signkin.binning.room import LINE, MOST_KEPT, Room, aligned
+from signkin.binning.room import MOST_KEPT, Room
 from signkin.binning.stale import STAMP, forget_stale
 
 A = np.array([1.5, -2.0, 0.0, 1e300, -1e-300, np.inf, 3.0, 7.25])
@@ -103,9 +103,10 @@ def test_exponentials_are_those_of_the_library_to_a_bit_and_end_at_zero():
 
 
 @pytest.mark.parametrize("size", [1, 7, 64, 1001])
-def test_arrays_start_on_a_line_of_the_cache(size):
-    assert aligned(size).shape == (size,)
-    assert aligned(size).ctypes.data % LINE == 0
+@pytest.mark.parametrize("make", [lanes.aligned, lanes.aligned.py_func])
+def test_arrays_start_on_a_line_of_the_cache(make, size):
+    assert make(size).shape == (size,)
+    assert make(size).ctypes.data % 64 == 0
 
 
 def test_memory_is_kept_by_name_and_not_when_there_is_much_of_it():

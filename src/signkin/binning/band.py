@@ -24,7 +24,8 @@ from signkin.binning.lanes import (
     total,
     where_above,
 )
-from signkin.binning.sum_product import NEGLIGIBLE, SLOW, UNDERFLOW, price_of_boundary
+from signkin.binning.log_domain import NEGLIGIBLE
+from signkin.binning.sum_product import SLOW, UNDERFLOW, price_of_boundary
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741
@@ -96,8 +97,8 @@ def ways_on(weight: F, offset: I, ways: F) -> None:
     """Fill ways[p, WIDTH + k - offset[p]] with the sum over ways to cut bins p.. into k segments.
 
     weight: (T, W) scaled evidence. offset: (T + 1,) whole multiples of WIDTH: the band of k that
-    is kept at p starts there. ways: (T + 1, K), K of `columns_for`, the first and last WIDTH
-    columns stay 0. What would come from outside of a band is taken for 0.
+    is kept at p starts there, and no later for a later p. ways: (T + 1, K), K of `columns_for`,
+    the first and last WIDTH columns stay 0. What would come from outside of a band is taken for 0.
     """
     bins, longest = weight.shape
     columns = ways.shape[1]
@@ -110,7 +111,7 @@ def ways_on(weight: F, offset: I, ways: F) -> None:
             for n in range(min(longest, bins - p)):
                 w = weight[p, n]
                 c = at + offset[p] - 1 - offset[p + 1 + n]
-                if w > 0.0 and 0 <= c <= columns - WIDTH:
+                if w > 0.0 and c <= columns - WIDTH:
                     sum_ = sum_ + w * load(ways, (p + 1 + n, c))
             store(ways, (p, at), where_above(sum_, splat(SLOW), sum_, splat(0.0)))
 
@@ -153,7 +154,7 @@ def counts_in_band(
 
     For long series: at each bin only numbers of segments within `half_width` of the best
     path's are kept. log_prior, log_by_count: (T,). ways: (T + 1, columns_for(2 half_width)).
-    Leaves a pass ready like `counts_of_order`. Returns the share of the sum over all
+    Leaves a pass ready for `posterior_of_order`. Returns the share of the sum over all
     segmentations, at the pass's price of a segment, that the band and the window of counts
     leave out, and the penalty.
     """
@@ -240,8 +241,7 @@ def posterior_of_order(
             shift = offset[p] - offset[q] - 1
             sum_ = splat(0.0)
             # What falls out of the band at q falls on its empty columns, or beyond them.
-            low = max(first, first - (first + shift) // WIDTH * WIDTH)
-            for c in range(low, min(last, columns - WIDTH - shift) + 1, WIDTH):
+            for c in range(first, min(last, columns - WIDTH - shift) + 1, WIDTH):
                 behind = load(before, (p, c))
                 sum_ = sum_ + behind * load(ways, (q, c + shift))
                 store(before, (q, c + shift), load(before, (q, c + shift)) + w * behind)

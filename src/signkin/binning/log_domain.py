@@ -25,7 +25,7 @@ from signkin.binning.lanes import (
 
 F = NDArray[np.float64]
 
-NEGLIGIBLE = 1e-20  # probability that posteriors pass over
+NEGLIGIBLE = 1e-20  # probability, or weight in units of the best path, that is passed over
 FAR_BELOW = -45.0  # log of a share of a sum that is not felt
 
 

@@ -12,7 +12,8 @@ import threading
 import numpy as np
 from numpy.typing import NDArray
 
-LINE = 64  # bytes of a line of the cache: lanes that lie across two take twice as long to load
+from signkin.binning import lanes
+
 MOST_KEPT = 1 << 23  # numbers in one array, 64 MB; more would be held for a rare series
 
 
@@ -27,15 +28,7 @@ class Room(threading.local):
         size = math.prod(shape)
         room = self._kept.get(name)
         if room is None or len(room) < size:
-            room = aligned(size)
+            room = lanes.aligned.py_func(size)
             if size <= MOST_KEPT:
                 self._kept[name] = room
         return room[:size].reshape(shape)
-
-
-def aligned(size: int) -> NDArray[np.float64]:
-    """Return an array of any value that starts on a line of the cache."""
-    per_line = LINE // 8
-    room = np.empty(size + per_line)
-    first = -(room.ctypes.data // 8) % per_line
-    return room[first : first + size]

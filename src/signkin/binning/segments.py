@@ -116,9 +116,7 @@ def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def segment_evidence(
-    x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F
-) -> None:  # fmt: skip
+def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F) -> None:
     """Fill out, by segment or by order, with the log evidence of every segment.
 
     x: (L, T + 8), whitened, 0 behind the last bin. The tables are those of prior.Tables. What

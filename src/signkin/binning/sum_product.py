@@ -27,13 +27,12 @@ from signkin.binning.lanes import (
     store,
     where_above,
 )
-from signkin.binning.log_domain import log_posterior, log_ways
+from signkin.binning.log_domain import NEGLIGIBLE, log_posterior, log_ways
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741
 
 UNDERFLOW = 1e-120  # a sum in the linear domain below this may have lost terms
-NEGLIGIBLE = 1e-20  # weight, in units of the best path, that posteriors pass over
 SLOW = 1e-250  # sums below are put to 0: numbers next to the smallest are slow
 MOST_LOST = 1e-13  # mass of P(M | D) that a linear pass may lose
 # Penalties of a segment in units of ln T, for bounds; those that mostly are enough go first.
