@@ -19,10 +19,11 @@ import yaml
 
 from signkin.coarticulation.transitions import with_normalised
 from signkin.corpus import Corpus, load_corpus
-from signkin.pipeline import coarticulation, naert2017, simulation
-from signkin.pipeline.ingest import Ingested, ingest
-from signkin.pipeline.kinematics import kinematics
+from signkin.stages.ingest import Ingested, ingest
+from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
+from signkin.studies.naert2017 import coarticulation, simulation
+from signkin.studies.naert2017 import exhibits as naert2017
 
 ROOT = Path(__file__).resolve().parents[1]
 CHOICES: dict[str, dict[str, Any]] = {

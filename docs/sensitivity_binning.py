@@ -23,12 +23,19 @@ from numpy.typing import NDArray
 from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
-from signkin.pipeline import single_signs as cutting
-from signkin.pipeline.binning import FITTED_MAP, Data, Study, boundary_times, chosen, prior_of
-from signkin.pipeline.ingest import ingest
-from signkin.pipeline.long_series import long_series
-from signkin.pipeline.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
 from signkin.recording import Recording
+from signkin.stages.ingest import ingest
+from signkin.studies.endres2013 import single_signs as cutting
+from signkin.studies.endres2013.posteriors import (
+    FITTED_MAP,
+    Data,
+    Study,
+    boundary_times,
+    chosen,
+    prior_of,
+)
+from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
+from signkin.studies.one_wrist.long_series import long_series
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")

@@ -23,7 +23,6 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 from signkin.binning import chance_line, match
 from signkin.corpus import data_folder, load_corpus
 from signkin.kinematics import curvature, fill_gaps, lowpass, speed
-from signkin.pipeline.ingest import ingest
 from signkin.powerlaw import (
     REASONS,
     GroundTruth,
@@ -32,6 +31,7 @@ from signkin.powerlaw import (
     active_part,
     warp_to_power_law,
 )
+from signkin.stages.ingest import ingest
 
 ROOT = Path(__file__).resolve().parents[1]
 CORPORA = ("isl-sim", "dgs-1984189", "libras", "isl-kinect", "auslan-hq")

@@ -43,7 +43,7 @@ def main(arguments: list[str] | None = None) -> int:
 def say(told: argparse.Namespace) -> int:
     """Make one utterance; what it wants of the workflow is run first."""
     from signkin.errors import SignkinError
-    from signkin.pipeline.speak import glosses_of, prerequisites, speak
+    from signkin.studies.naert2017.synthesis.speak import glosses_of, prerequisites, speak
 
     changes = {k: v for k in ("method", "duration", "retrieval") if (v := getattr(told, k))}
     try:
@@ -64,7 +64,7 @@ def run_audit(
 ) -> int:
     """Print the verdicts of claims; returns 1 where the input cannot be used, else 0."""
     from signkin.errors import SignkinError
-    from signkin.pipeline.audit import run_ledger, told
+    from signkin.pages.ledger import run_ledger, told
     from signkin.tables import write_table
 
     try:

@@ -9,7 +9,6 @@ from scipy.spatial import KDTree
 
 from signkin.corpus import load_corpus
 from signkin.kinematics import curvature, lowpass, speed
-from signkin.pipeline.ingest import ingest
 from signkin.powerlaw import (
     GroundTruth,
     LeftOut,
@@ -17,6 +16,7 @@ from signkin.powerlaw import (
     fit_power_law,
     warp_to_power_law,
 )
+from signkin.stages.ingest import ingest
 from support.signs import minimum_jerk_sign
 
 

@@ -11,7 +11,7 @@ from signkin import read_annotation, read_recording
 from signkin.corpus import load_corpus
 from signkin.io.eaf import NewTier, insert_tiers
 from signkin.kinematics import check_recording, with_limb_frames
-from signkin.pipeline.ingest import ingest
+from signkin.stages.ingest import ingest
 
 
 @pytest.fixture(scope="module")

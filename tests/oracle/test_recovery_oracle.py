@@ -6,9 +6,9 @@ from scipy.special import gammaln, logsumexp
 
 from signkin.binning import Prior, fit, segment_log_evidence, sum_product
 from signkin.binning.lanes import WIDTH
-from signkin.pipeline.binning import FITTED_MAP, study
-from signkin.pipeline.endres2013 import hit_rates, known_boundaries, order_posteriors
-from signkin.pipeline.single_signs import RECORDED, single_signs
+from signkin.studies.endres2013.posteriors import FITTED_MAP, study
+from signkin.studies.endres2013.single_signs import RECORDED, single_signs
+from signkin.studies.endres2013.summaries import hit_rates, known_boundaries, order_posteriors
 from support.endres import settings, simulated
 
 TRUE_ORDERS = [1, 2, 3, 4, 5]

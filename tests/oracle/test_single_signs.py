@@ -9,7 +9,7 @@ import pytest
 from signkin.corpus import load_corpus
 from signkin.io import kinect
 from signkin.kinematics import check_recording, lowpass, speed
-from signkin.pipeline.ingest import ingest
+from signkin.stages.ingest import ingest
 
 ARCHIVES = {"auslan-hq": "tctodd.tar.gz", "isl-kinect": "RawDataset.tar.gz"}
 

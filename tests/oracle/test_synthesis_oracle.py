@@ -13,9 +13,9 @@ from signkin.corpus import load_corpus
 from signkin.errors import SignkinError
 from signkin.io.bvh import channel_values, forward_kinematics, parse_bvh
 from signkin.io.wide_csv import column_map
-from signkin.pipeline.ingest import ingest
-from signkin.pipeline.synthesis import comparison, summary
-from signkin.pipeline.utterance import (
+from signkin.stages.ingest import ingest
+from signkin.studies.naert2017.synthesis.comparison import comparison, summary
+from signkin.studies.naert2017.synthesis.utterance import (
     distance_scale,
     make_utterance,
     retrieved,

@@ -9,7 +9,7 @@ import pytest
 
 from signkin import tables
 from signkin.binning import Prior, fit
-from signkin.pipeline.binning import (
+from signkin.studies.endres2013.posteriors import (
     FITTED,
     FITTED_MAP,
     Data,
@@ -24,7 +24,7 @@ from signkin.pipeline.binning import (
     study,
     write_posteriors,
 )
-from signkin.pipeline.single_signs import POWERLAW, RECORDED, Trajectory
+from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
 from support.endres import corpus_of, settings
 
 BINS, BIN_S = 24, 0.04

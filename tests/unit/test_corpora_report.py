@@ -1,7 +1,7 @@
 import pandas as pd
 
-from signkin.pipeline import corpora_report
-from signkin.pipeline.naert2017 import spread
+from signkin.pages import corpora as corpora_report
+from signkin.studies.naert2017.exhibits import spread
 
 
 def about(cells):

@@ -7,7 +7,7 @@ import pytest
 
 from signkin.figures import durations
 from signkin.figures.style import paper_style
-from signkin.pipeline.durations_figures import draw_predictions, draw_surface
+from signkin.studies.naert2017.durations_figures import draw_predictions, draw_surface
 
 
 def predictions(values, model="SIMPLE"):

@@ -9,9 +9,16 @@ from signkin import tables
 from signkin.errors import SignkinError
 from signkin.figures import binning as drawing
 from signkin.figures.style import paper_style
-from signkin.pipeline import endres2013, endres_figures
-from signkin.pipeline.binning import FITTED, FITTED_MAP, read_posteriors, study, write_posteriors
-from signkin.pipeline.single_signs import (
+from signkin.studies.endres2013 import figures as endres_figures
+from signkin.studies.endres2013 import summaries as endres2013
+from signkin.studies.endres2013.posteriors import (
+    FITTED,
+    FITTED_MAP,
+    read_posteriors,
+    study,
+    write_posteriors,
+)
+from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
     example_points,

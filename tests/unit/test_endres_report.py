@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from signkin import tables
-from signkin.pipeline import endres_report
+from signkin.studies.endres2013 import report as endres_report
 
 ORDERS = range(8)
 

@@ -6,8 +6,9 @@ import pytest
 from scipy.stats import friedmanchisquare, kruskal
 
 from signkin import tables
-from signkin.pipeline.binning import FITTED, FITTED_MAP
-from signkin.pipeline.endres2013 import (
+from signkin.studies.endres2013.posteriors import FITTED, FITTED_MAP
+from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
+from signkin.studies.endres2013.summaries import (
     ALL,
     RATES_PER_S,
     groups,
@@ -17,7 +18,6 @@ from signkin.pipeline.endres2013 import (
     order_tests,
     rates_by_order,
 )
-from signkin.pipeline.single_signs import POWERLAW, RECORDED, Trajectory
 
 SETTINGS = {"window_s": 0.09, "bootstrap_draws": 50, "chance_trajectories": 400}
 

@@ -14,7 +14,7 @@ from matplotlib.patches import FancyBboxPatch
 from signkin.coarticulation.excerpts import choose_excerpts, excerpt_points
 from signkin.figures import distance, hands, overview, refinement, specification, speed
 from signkin.figures.style import LEFT, MANUAL, RIGHT, paper_style, save
-from signkin.pipeline.overview import layout, parse_rule_graph, rule_notes, stage_order
+from signkin.pages.overview import layout, parse_rule_graph, rule_notes, stage_order
 from signkin.report.page import (
     FigureView,
     Page,

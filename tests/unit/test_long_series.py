@@ -12,8 +12,8 @@ from signkin.annotation import Interval
 from signkin.errors import SignkinError
 from signkin.figures.style import paper_style
 from signkin.io.eaf import write_eaf
-from signkin.pipeline import long_series as module
-from signkin.pipeline.long_series import (
+from signkin.studies.one_wrist import long_series as module
+from signkin.studies.one_wrist.long_series import (
     caption,
     copies,
     draw,

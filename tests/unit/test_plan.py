@@ -6,7 +6,7 @@ import pytest
 
 from signkin import SignkinError
 from signkin.corpus import load_corpora
-from signkin.pipeline.plan import Plan
+from signkin.stages.plan import Plan
 
 
 @pytest.fixture(scope="module")

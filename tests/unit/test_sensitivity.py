@@ -6,9 +6,9 @@ import pytest
 from signkin import tables
 from signkin.errors import SignkinError
 from signkin.figures.style import paper_style
-from signkin.pipeline.binning import study
-from signkin.pipeline.sensitivity import OUTCOMES, caption, draw, sensitivity
-from signkin.pipeline.single_signs import POWERLAW, RECORDED, single_signs
+from signkin.studies.endres2013.open_choices import OUTCOMES, caption, draw, sensitivity
+from signkin.studies.endres2013.posteriors import study
+from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, single_signs
 from support.endres import arc, corpus_of, recording_of, settings
 
 NAMES = ["a", "b"]

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from signkin import tables
 from signkin.coarticulation.sign_speeds import continuous, sign_speeds, step_angles
-from signkin.pipeline import durations
 from signkin.statistics import anova, association, equivalence, mixed, posthoc
 from signkin.statistics.effects import cohens_d, share_interval
 from signkin.statistics.findings import Finding, grouped
+from signkin.studies.naert2017 import durations
 
 NAN = float("nan")
 

@@ -8,7 +8,7 @@ import pytest
 from signkin import tables
 from signkin.errors import SignkinError
 from signkin.kinematics import lowpass
-from signkin.pipeline.single_signs import (
+from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
     example_points,

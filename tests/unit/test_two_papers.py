@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from signkin.pipeline.two_papers_report import two_papers
+from signkin.studies.one_wrist.report import two_papers
 from signkin.tables import TABLES, write_table
 
 

@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import pytest
 
-from signkin.pipeline.audit import run_ledger
+from signkin.pages.ledger import run_ledger
 from signkin.tables import read_table
 
 

@@ -11,7 +11,7 @@ import yaml
 
 from signkin import Interval, tables
 from signkin.io.eaf import write_eaf
-from signkin.pipeline.endres_figures import FIGURES
+from signkin.studies.endres2013.figures import FIGURES
 from support.endres import simulated
 from support.runs import MINI, ROOT, checked, mini_motion, prepare, run
 

@@ -13,8 +13,8 @@ import pytest
 
 from signkin import read_annotation, tables
 from signkin.coarticulation.transitions import utterance_names
-from signkin.pipeline import naert2017
 from signkin.statistics import descriptive
+from signkin.studies.naert2017 import exhibits as naert2017
 from support.runs import checked, command, environment, prepare, run
 
 

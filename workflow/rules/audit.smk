@@ -15,40 +15,13 @@ rule claims:
     log:
         "<logs>/audit/claims.log",
     params:
-        code=PLAN.digest("claims.py"),
+        code=PLAN.digest("pages/claims.py"),
         papers=[str(folder) for folder in PLAN.claimed],
         corpora={
             name: corpus.simulator is not None for name, corpus in PLAN.corpora.items()
         },
     script:
-        "../scripts/claims.py"
-
-
-rule multiverse:
-    """Claims of Naert et al. under every combination of open choices."""
-    input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/recordings/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        intervals=rules.gather.output.intervals,
-        excluded=rules.gather.output.excluded,
-        transitions=rules.naert_tables.output.transitions,
-    output:
-        table="<results>/naert2017/{corpus}/multiverse.csv",
-    log:
-        "<logs>/naert2017/{corpus}/multiverse.log",
-    params:
-        code=PLAN.digest("multiverse.py"),
-        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            k: config[k]
-            for k in ("kinematics", "refinement", "transitions", "multiverse")
-        },
-    script:
-        "../scripts/multiverse.py"
+        "../scripts/pages/claims.py"
 
 
 rule curves:
@@ -62,13 +35,13 @@ rule curves:
     log:
         "<logs>/audit/curves.log",
     params:
-        code=PLAN.digest("curves.py"),
+        code=PLAN.digest("pages/curves.py"),
         papers=[str(folder) for folder in PLAN.claimed],
         corpora={
             name: corpus.simulator is not None for name, corpus in PLAN.corpora.items()
         },
     script:
-        "../scripts/curves.py"
+        "../scripts/pages/curves.py"
 
 
 rule audit_page:
@@ -85,10 +58,10 @@ rule audit_page:
     log:
         "<logs>/audit/page.log",
     params:
-        code=PLAN.digest("audit_page.py"),
+        code=PLAN.digest("pages/audit.py"),
         papers=[str(folder) for folder in PLAN.claimed],
     script:
-        "../scripts/audit_page.py"
+        "../scripts/pages/audit.py"
 
 
 rule audit:

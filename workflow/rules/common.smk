@@ -1,6 +1,6 @@
 # What a run consists of, found out once: corpora, their files, what is missing.
 from signkin.errors import SignkinError
-from signkin.pipeline.plan import make_plan
+from signkin.stages.plan import make_plan
 from snakemake.exceptions import WorkflowError
 
 try:

@@ -14,9 +14,9 @@ rule ingest:
     log:
         "<logs>/{corpus}/{shard}/ingest.log",
     params:
-        code=PLAN.digest("ingest.py"),
+        code=PLAN.digest("stages/ingest.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         folder=lambda w: str(PLAN.folders[w.corpus]),
         names=lambda w: PLAN.names(w.corpus, w.shard),
     script:
-        "../scripts/ingest.py"
+        "../scripts/stages/ingest.py"

@@ -14,11 +14,11 @@ rule kinematics:
     log:
         "<logs>/{corpus}/{shard}/kinematics.log",
     params:
-        code=PLAN.digest("kinematics.py"),
+        code=PLAN.digest("stages/kinematics.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         settings=config["kinematics"],
     script:
-        "../scripts/kinematics.py"
+        "../scripts/stages/kinematics.py"
 
 
 rule gather:
@@ -65,10 +65,10 @@ rule gather:
     log:
         "<logs>/{corpus}/gather.log",
     params:
-        code=PLAN.digest("gather.py"),
+        code=PLAN.digest("stages/gather.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
     script:
-        "../scripts/gather.py"
+        "../scripts/stages/gather.py"
 
 
 rule wrist_speeds:
@@ -85,7 +85,7 @@ rule wrist_speeds:
     log:
         "<logs>/{corpus}/wrist_speeds.log",
     params:
-        code=PLAN.digest("wrist_speeds.py"),
+        code=PLAN.digest("stages/wrist_speeds.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
     script:
-        "../scripts/wrist_speeds.py"
+        "../scripts/stages/wrist_speeds.py"

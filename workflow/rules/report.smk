@@ -13,11 +13,11 @@ rule overview:
     log:
         "<logs>/overview.log",
     params:
-        code=PLAN.digest("overview.py"),
+        code=PLAN.digest("pages/overview.py"),
         config=config,
         corpora=sorted(PLAN.corpora),
     script:
-        "../scripts/overview.py"
+        "../scripts/pages/overview.py"
 
 
 rule report:
@@ -42,9 +42,9 @@ rule report:
     log:
         "<logs>/report.log",
     params:
-        code=PLAN.digest("report.py"),
+        code=PLAN.digest("pages/run.py"),
         corpora={name: str(corpus.folder) for name, corpus in PLAN.corpora.items()},
         missing=dict(PLAN.missing),
         config={k: v for k, v in config.items() if k != "data_dir"},
     script:
-        "../scripts/report.py"
+        "../scripts/pages/run.py"

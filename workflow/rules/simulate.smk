@@ -21,12 +21,12 @@ if "lsf-sim" in PLAN.simulated:
         log:
             f"<logs>/{LSF_SIM}/simulate.log",
         params:
-            code=PLAN.digest("simulate_lsf.py"),
+            code=PLAN.digest("stages/simulate_lsf.py"),
             corpus=lambda w: str(PLAN.corpora[LSF_SIM].folder),
             seed=config["seed"],
             euclidean_unit_m=config["transitions"]["euclidean_unit_m"],
         script:
-            "../scripts/simulate_lsf.py"
+            "../scripts/stages/simulate_lsf.py"
 
 
 if "isl-sim" in PLAN.simulated:
@@ -47,8 +47,8 @@ if "isl-sim" in PLAN.simulated:
         log:
             f"<logs>/{ISL_SIM}/simulate.log",
         params:
-            code=PLAN.digest("simulate_isl.py"),
+            code=PLAN.digest("stages/simulate_isl.py"),
             corpus=lambda w: str(PLAN.corpora[ISL_SIM].folder),
             seed=config["seed"],
         script:
-            "../scripts/simulate_isl.py"
+            "../scripts/stages/simulate_isl.py"

@@ -1,0 +1,1 @@
+"""What each paper's rules compute, draw and say; a paper is a folder."""

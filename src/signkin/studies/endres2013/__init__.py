@@ -1,0 +1,1 @@
+"""Endres, Meirovitch, Flash & Giese 2013: Bayesian binning of single signs."""

@@ -1,0 +1,333 @@
+"""Bayesian binning of single signs: order posteriors, fitted trajectories, hit rates.
+
+Endres et al. 2013, section 3: the recorded trajectories, their power-law ground
+truth, and trajectories fitted with each order, taken as data again. Fitted ones
+are of two kinds: the paper's, averaged over segmentations, and `fitted_map`, which
+is exactly piecewise polynomial, from the most probable segmentation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from signkin import tables
+from signkin.binning import Posterior, Prior, fit_many
+from signkin.binning.hit_rate import hit_rate
+from signkin.corpus import Corpus
+from signkin.errors import SignkinError
+from signkin.stages.ingest import lead
+from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
+
+Floats = NDArray[np.float64]
+
+FITTED, FITTED_MAP = "fitted", "fitted_map"
+
+
+def prior_of(settings: Mapping[str, Any], noise_sd: float, x: Floats) -> Prior:
+    """Return the prior that config.yaml describes, for one trajectory (section 3.2).
+
+    settings: binning.prior. noise_sd: of the corpus's sensor. x: (T, L). `noise: data` is the
+    printed reading: the data's own variances, one a dimension.
+    """
+    noise: float | tuple[float, ...] = noise_sd
+    if settings["noise"] == "data":
+        noise = tuple(float(sd) for sd in x.std(axis=0, ddof=1))
+    return Prior(
+        noise_sd=noise,
+        dof=settings["dof"],
+        concentration=settings["concentration"],
+        time_unit=settings["time_unit"],
+        scale=settings["scale"],
+    )
+
+
+def prior_id(settings: Mapping[str, Any], noise_share: float = 1.0) -> str:
+    """Return a name for the prior: `dof3 sensor expected b0.1 bin`."""
+    noise = settings["noise"] if noise_share == 1.0 else f"{noise_share:g}x{settings['noise']}"
+    dof = "L" if settings["dof"] is None else f"{settings['dof']:g}"
+    return (
+        f"dof{dof} {noise} {settings['scale']} b{settings['concentration']:g} "
+        f"{settings['time_unit']}"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """A trajectory to be binned, where it comes from, and its known boundaries in s, if any.
+
+    true_order: order of the polynomials that a fitted trajectory was made with.
+    noise_share: the prior's noise over the sensor's.
+    """
+
+    source: Trajectory
+    dataset: str
+    x: Floats
+    true_order: int | None
+    truth_s: Floats
+    noise_share: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A trajectory with its posterior."""
+
+    data: Data
+    posterior: Posterior
+
+    def boundaries_s(self, order: int) -> Floats:
+        """Return the M_opt boundaries of an order, in s from the start."""
+        return boundary_times(self.posterior.boundaries(order), self.data.source.bin_s)
+
+
+def boundary_times(ends: NDArray[np.int64], bin_s: float) -> Floats:
+    """Return when segments end that end with the bins given: at the end of the bin."""
+    return np.asarray((np.asarray(ends) + 1) * bin_s, dtype=float)
+
+
+def chosen(names: Sequence[str], most: int) -> list[str]:
+    """Return at most so many of the names, evenly spread over the list."""
+    if len(names) <= most:
+        return list(names)
+    places = np.linspace(0, len(names) - 1, most).round().astype(int)
+    return [names[i] for i in places]
+
+
+class Study:
+    """The runs of one corpus: a trajectory in, its posterior out, with the settings of a run."""
+
+    def __init__(self, corpus: Corpus, settings: Mapping[str, Any], workers: int = 1) -> None:
+        """Take the settings of the section `binning`."""
+        self.corpus = corpus
+        self.settings = settings
+        self.orders = tuple(settings["orders"])
+        self.workers = workers
+        self.left_out: list[dict[str, Any]] = []
+
+    def run(self, items: Sequence[Data]) -> list[Fitted]:
+        """Bin the trajectories; those that cannot be are left out and listed."""
+        usable: list[tuple[Data, Floats, Prior]] = []
+        for item in items:
+            try:
+                usable.append((item, *self._ready(item)))
+            except SignkinError as error:
+                self.left_out.append(
+                    {
+                        **lead(self.corpus, item.source.recording),
+                        "dataset": item.dataset,
+                        "reason": str(error),
+                    }
+                )
+        found = fit_many(
+            [x for _, x, _ in usable],
+            self.orders,
+            [prior for _, _, prior in usable],
+            [item.source.bin_s for item, _, _ in usable],
+            workers=self.workers,
+            names=[f"recording {item.source.recording}" for item, _, _ in usable],
+        )
+        return [Fitted(item, one) for (item, _, _), one in zip(usable, found, strict=True)]
+
+    def _ready(self, item: Data) -> tuple[Floats, Prior]:
+        where = f"recording {item.source.recording}"
+        gaps = int((~np.isfinite(item.x)).any(axis=1).sum())
+        if gaps:
+            raise SignkinError(f"{gaps} bins without a position", file=where, expected="none")
+        x = item.x - item.x.mean(axis=0)
+        if not (x.std(axis=0) > 0).any():
+            raise SignkinError("all bins are equal", file=where, expected="a movement")
+        if len(x) <= max(self.orders):
+            raise SignkinError(
+                f"{len(x)} bins",
+                file=where,
+                expected=f"more than the highest order, {max(self.orders)}",
+            )
+        prior = prior_of(self.settings["prior"], self.corpus.noise_sd, x)
+        shares = np.asarray(prior.noise_sd) * item.noise_share
+        noise = float(shares) if shares.ndim == 0 else tuple(float(v) for v in shares)
+        return x, replace(prior, noise_sd=noise)
+
+    def fitted_data(self, fitted: Fitted, order: int) -> Iterator[Data]:
+        """Yield both kinds of trajectory that the fit of an order makes, to be binned as data."""
+        posterior, source = fitted.posterior, fitted.data.source
+        share = self.settings["recovery_noise"]
+        mean = posterior.expected_trajectory(order)
+        yield Data(source, FITTED, mean, order, fitted.boundaries_s(order), share)
+        ends = posterior.map_segmentation(order)
+        exact = posterior.map_trajectory(order)
+        truth = boundary_times(ends, source.bin_s)
+        yield Data(source, FITTED_MAP, exact, order, truth, share)
+
+
+def rows_of(
+    corpus: Corpus, settings: Mapping[str, Any], fitted: Fitted
+) -> Iterator[dict[str, Any]]:
+    """Yield the rows of binning.csv for one trajectory, one an order."""
+    data, posterior = fitted.data, fitted.posterior
+    source = data.source
+    start = lead(corpus, source.recording)
+    entry = corpus.by_name[source.recording]
+    known = data.dataset != RECORDED
+    x = data.x - data.x.mean(axis=0)
+    for i, order in enumerate(posterior.orders):
+        row: dict[str, Any] = {
+            **start,
+            "sign": entry.sign,
+            "repetition": entry.repetition,
+            "dataset": data.dataset,
+            "true_order": data.true_order,
+            "prior_id": prior_id(settings["prior"], data.noise_share),
+            "n_bins": len(x),
+            "duration_s": source.duration_s,
+            "order": order,
+            "log_evidence": posterior.log_evidence[i],
+            "order_probability": posterior.order_probability[i],
+            "map_count": posterior.map_count(order),
+            "expected_count": float(posterior.boundary_probability(order).sum()),
+            "cut_mass": posterior.cut_mass[i],
+            "explained_variance": explained_variance(x, posterior.expected_trajectory(order)),
+        }
+        if not known:
+            yield {**row, "note": "boundaries of recorded movements are not known"}
+            continue
+        rate = hit_rate(
+            fitted.boundaries_s(order), data.truth_s, settings["window_s"],
+            duration_s=source.duration_s,
+        )  # fmt: skip
+        hpfpps = rate.hpfpps
+        yield {
+            **row,
+            "hits": rate.hits,
+            "misses": rate.misses,
+            "false_positives": rate.false_positives,
+            "hit_rate": rate.hit_rate,
+            "false_positives_per_s": rate.false_positives_per_s,
+            "hpfpps": hpfpps if np.isfinite(hpfpps) else None,
+            "note": rate.note or ("" if np.isfinite(hpfpps) else _why_no_ratio(rate.hits)),
+        }
+
+
+def _why_no_ratio(hits: int) -> str:
+    return "no false positive" if hits else "neither hit nor false positive"
+
+
+def explained_variance(x: Floats, fitted: Floats) -> float:
+    """Return 1 - residual over total sum of squares (Fig. 3D)."""
+    total = float(np.sum((x - x.mean(axis=0)) ** 2))
+    return 1 - float(np.sum((x - fitted) ** 2)) / total
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a shard gave: fits of recorded and power-law trajectories, and rows of tables."""
+
+    fits: list[Fitted]
+    rows: Mapping[str, list[dict[str, Any]]]
+
+    def table(self, name: str) -> pd.DataFrame:
+        """Return one of the tables binning, fitted_truths, binning_left_out."""
+        return pd.DataFrame(self.rows[name], columns=tables.TABLES[name].names())
+
+
+def study(
+    corpus: Corpus, trajectories: Sequence[Trajectory], settings: Mapping[str, Any], workers: int
+) -> Found:
+    """Bin a shard's trajectories, and the trajectories fitted to some of the recorded ones.
+
+    settings: the section `binning` of config.yaml. Of all recordings of the corpus at most
+    `fitted_recordings` are fitted and binned again.
+    """
+    runs = Study(corpus, settings, workers)
+    none = np.empty(0)
+    given = [
+        Data(t, t.dataset, t.x, None, t.boundaries_s if t.dataset == POWERLAW else none)
+        for t in trajectories
+    ]
+    fits = runs.run(given)
+    picked = set(chosen([e.recording for e in corpus.entries], settings["fitted_recordings"]))
+    again = [
+        item
+        for one in fits
+        if one.data.dataset == RECORDED and one.data.source.recording in picked
+        for order in settings["fitted_orders"]
+        for item in runs.fitted_data(one, order)
+    ]
+    rows = [row for one in (*fits, *runs.run(again)) for row in rows_of(corpus, settings, one)]
+    truths = [
+        {
+            **lead(corpus, item.source.recording),
+            "dataset": item.dataset,
+            "true_order": item.true_order,
+            "boundary_s": time,
+        }
+        for item in again
+        for time in item.truth_s
+    ]
+    return Found(
+        fits, {"binning": rows, "fitted_truths": truths, "binning_left_out": runs.left_out}
+    )
+
+
+# --- per-trajectory results ------------------------------------------------------------------
+
+
+def write_posteriors(path: str | Path, fits: Sequence[Fitted]) -> None:
+    """Write what binning says of each trajectory to Parquet, one row a trajectory and order.
+
+    Lists: log_evidence_by_count (M = 0, 1, ...), boundary_probability (T - 1), boundaries_s,
+    noise_covariance (L x L, row by row), expected (T x L, row by row, in the corpus's unit and
+    around the trajectory's mean, which is `centre`).
+    """
+    rows = [(one, i, order) for one in fits for i, order in enumerate(one.posterior.orders)]
+
+    def column(values: Any, kind: pa.DataType) -> pa.Array:
+        return pa.array([values(*row) for row in rows], kind)
+
+    wide, narrow = pa.list_(pa.float64()), pa.list_(pa.float32())
+    table = pa.table(
+        {
+            "recording": column(lambda f, i, o: f.data.source.recording, pa.string()),
+            "hand": column(lambda f, i, o: f.data.source.hand, pa.string()),
+            "dataset": column(lambda f, i, o: f.data.dataset, pa.string()),
+            "order": column(lambda f, i, o: o, pa.int32()),
+            "bin_s": column(lambda f, i, o: f.data.source.bin_s, pa.float64()),
+            "log_evidence": column(lambda f, i, o: f.posterior.log_evidence[i], pa.float64()),
+            "order_probability": column(
+                lambda f, i, o: f.posterior.order_probability[i], pa.float64()
+            ),
+            "map_count": column(lambda f, i, o: f.posterior.map_count(o), pa.int32()),
+            "boundaries_s": column(lambda f, i, o: f.boundaries_s(o), wide),
+            "true_boundaries_s": column(lambda f, i, o: f.data.truth_s, wide),
+            "log_evidence_by_count": column(
+                lambda f, i, o: f.posterior.log_evidence_by_count[i], wide
+            ),
+            "boundary_probability": column(
+                lambda f, i, o: f.posterior.boundary_probability(o).astype(np.float32), narrow
+            ),
+            "noise_covariance": column(
+                lambda f, i, o: f.posterior.noise_covariance(o).ravel(), wide
+            ),
+            "expected": column(
+                lambda f, i, o: f.posterior.expected_trajectory(o).astype(np.float32).ravel(),
+                narrow,
+            ),
+            "centre": column(lambda f, i, o: f.data.x.mean(axis=0), wide),
+        }
+    )
+    pq.write_table(table, path, compression="zstd")
+
+
+def read_posteriors(paths: Iterable[str | Path], recording: str) -> pd.DataFrame:
+    """Return the rows of one recording, the lists as arrays."""
+    parts = [
+        pq.read_table(path, filters=[("recording", "=", recording)]).to_pandas() for path in paths
+    ]
+    return pd.concat(parts, ignore_index=True)

@@ -1,0 +1,1 @@
+"""Naert, Larboulette & Gibet 2017: refinement, transitions, durations, synthesis."""

@@ -1,0 +1,273 @@
+"""Claims of Naert et al. 2017 under every combination of choices that the paper leaves open.
+
+The same library functions as the pipeline's, run over a grid: low-pass, depth of a minimum,
+refinement window (config: multiverse), each hand, outliers kept or left out.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy import stats
+
+from signkin import seeds, tables
+from signkin.coarticulation.posture import euclidean_distance, geodesic_distance, normalised
+from signkin.coarticulation.segmentation import chance_distances, nearest, refine
+from signkin.corpus import Corpus
+from signkin.joints import HANDS, arm_joints
+from signkin.kinematics.derivatives import speed
+from signkin.kinematics.filters import lowpass
+from signkin.kinematics.minima import minima_with_depth
+from signkin.kinematics.rotations import parent_relative
+from signkin.recording import Recording
+from signkin.statistics.descriptive import outliers
+from signkin.studies.naert2017.coarticulation import filled_recording, intervals_of, utterances_of
+
+ALPHA = 0.05
+MAJORITY = 0.5  # 4.2: "a correct segmentation for a majority of cases"
+VISIBLE_S = 0.03  # Fig. 9: a tenth of the mean transition
+LEAST = 6  # transitions that a correlation is made from
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One combination of the grid for one hand."""
+
+    hand: str
+    cutoff_hz: float
+    prominence: float
+    window_s: float
+
+
+@dataclass
+class Gathered:
+    """What a setting gives, over all recordings of a corpus."""
+
+    durations: list[Floats]
+    changes: list[Floats]
+    geodesic: list[Floats]
+    euclidean: list[Floats]
+    types: list[str]
+    near: int = 0
+    moved: int = 0
+    tags: int = 0
+    chance: Floats | None = None  # tags near a minimum, in each set of random tags
+
+
+def multiverse(
+    corpus: Corpus,
+    recordings: Iterable[Recording],
+    intervals: pd.DataFrame,
+    transitions: pd.DataFrame,
+    excluded: pd.DataFrame,
+    settings: Mapping[str, Any],
+    seed: int,
+) -> pd.DataFrame:
+    """Return the table `multiverse` of a corpus.
+
+    transitions: the pipeline's table, which has the types and the manual transitions.
+    excluded: the table of recordings that are left out.
+    settings: config.yaml (kinematics, refinement, transitions, multiverse).
+    """
+    grid = settings["multiverse"]
+    gathered: dict[Setting, Gathered] = defaultdict(lambda: Gathered([], [], [], [], []))
+    whole = (transitions["segmentation"] == "manual") & (transitions["hand"] == "both")
+    manual = transitions[whole]
+    signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
+    used = signed - set(excluded["recording"])
+    for recording in recordings:
+        if recording.name in used:
+            types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
+            _add(corpus, recording, intervals, types, settings, seed, gathered)
+    rows = list(_manual_rows(manual, settings))
+    for setting in (Setting(*s) for s in product(HANDS, *(grid[k] for k in _GRID))):
+        if setting in gathered:
+            rows += _refined_rows(setting, gathered[setting], settings)
+    for row in rows:
+        row["corpus"] = corpus.name
+    frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["multiverse"].names())
+    for column in ("segmentation", "hand", "outliers", "note"):
+        frame[column] = frame[column].fillna("")
+    return frame.sort_values("claim", kind="stable", ignore_index=True)
+
+
+_GRID = ("cutoff_hz", "prominence", "window_s")
+
+
+def _add(
+    corpus: Corpus,
+    recording: Recording,
+    intervals: pd.DataFrame,
+    types: list[str],
+    settings: Mapping[str, Any],
+    seed: int,
+    gathered: dict[Setting, Gathered],
+) -> None:
+    """Add one recording to what each setting gathers."""
+    grid, rate = settings["multiverse"], recording.rate_hz
+    signs = intervals_of(intervals, recording.name, "sign")
+    manual = np.array([(sign.start_s, sign.end_s) for sign in signs]).reshape(-1, 2)
+    utterances = utterances_of(corpus, intervals, recording.name, signs)
+    before = np.array(
+        [i for i in range(len(signs) - 1) if utterances[i] and utterances[i] == utterances[i + 1]],
+        dtype=int,
+    )
+    filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
+    orientations = filled.orientations
+    if orientations is not None and settings["transitions"]["geodesic_frame"] == "parent":
+        orientations = parent_relative(filled)
+    arms = {
+        hand: [filled.index(joint) for joint in arm_joints(filled.joints, hand)] for hand in HANDS
+    }
+    for cutoff in grid["cutoff_hz"]:
+        for hand, prominence, minima in _minima(filled, cutoff, settings):
+            random = chance_distances(
+                signs, minima, rate, grid["draws"],
+                seeds.stream(seed, corpus.name, recording.name, hand, "multiverse"),
+            )  # fmt: skip
+            for window in grid["window_s"]:
+                reach = window + settings["refinement"]["tolerance_s"]
+                refined, moved, _ = refine(
+                    manual, minima, window, settings["refinement"]["tolerance_s"]
+                )
+                to = gathered[Setting(hand, cutoff, prominence, window)]
+                distance = np.abs(nearest(manual, minima) - manual)
+                to.near += int((distance <= reach).sum())
+                to.moved += int(moved.sum())
+                to.tags += manual.size
+                hits = (random <= reach).sum(axis=1).astype(float)
+                to.chance = hits if to.chance is None else to.chance + hits
+                start, end = refined[before, 1], refined[before + 1, 0]
+                to.durations.append(np.round(end - start, 9))
+                was = manual[before + 1, 0] - manual[before, 1]
+                to.changes.append(np.round(np.abs(end - start - was), 6))
+                geodesic, euclidean = _distances(filled, orientations, start, end, arms[hand])
+                to.geodesic.append(geodesic)
+                to.euclidean.append(euclidean)
+                to.types += types
+
+
+def _minima(
+    filled: Recording, cutoff_hz: float, settings: Mapping[str, Any]
+) -> Iterator[tuple[str, float, Floats]]:
+    """Yield hand, prominence and minima (s) of a recording under one cut-off.
+
+    Minima are found once and filtered by their depth, which gives the same as finding them
+    anew: spacing goes before prominence.
+    """
+    rate = filled.rate_hz
+    method = {**settings["kinematics"]["lowpass"], "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
+    speeds = {
+        hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate) for hand in HANDS
+    }
+    fastest = max(float(np.nanpercentile(s, 95)) for s in speeds.values())
+    spacing = settings["kinematics"]["minima"]["spacing_s"]
+    for hand, values in speeds.items():
+        times, _, depths = minima_with_depth(values, rate, 0.0, spacing)
+        for prominence in settings["multiverse"]["prominence"]:
+            yield hand, prominence, times[depths >= prominence * fastest]
+
+
+def _distances(
+    filled: Recording, orientations: Floats | None, start: Floats, end: Floats, joints: list[int]
+) -> tuple[Floats, Floats]:
+    first, second = (
+        np.clip(np.rint(t * filled.rate_hz), 0, filled.frames - 1).astype(int) for t in (start, end)
+    )
+    a, b = (filled.positions[frames][:, joints] for frames in (first, second))
+    geodesic = np.full(len(start), np.nan)
+    if orientations is not None:
+        geodesic = geodesic_distance(
+            orientations[first][:, joints], orientations[second][:, joints]
+        )
+    return geodesic, euclidean_distance(a, b)
+
+
+# --- rows ------------------------------------------------------------------------------------
+
+
+def _manual_rows(manual: pd.DataFrame, settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    counted = manual[manual["status"] != "overlap"]
+    about = {"segmentation": "manual", "hand": "both"}
+    yield from _duration_rows(
+        about,
+        counted["duration_s"].to_numpy(dtype=float),
+        counted["mean_distance"].to_numpy(dtype=float),
+        counted["type"].to_numpy(dtype=str),
+        settings,
+    )
+
+
+def _refined_rows(
+    setting: Setting, found: Gathered, settings: Mapping[str, Any]
+) -> Iterator[dict[str, Any]]:
+    about = {"segmentation": "refined", **vars(setting)}
+    durations = np.concatenate(found.durations)
+    there = durations >= 0  # overlapping signs have no transition between them
+    both = np.stack(
+        [normalised(np.concatenate(d)[there]) for d in (found.geodesic, found.euclidean)]
+    )
+    known = ~np.isnan(both)
+    mean = np.where(known, both, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+    distance = np.where(known.any(axis=0), mean, np.nan)
+    types = np.array(found.types, dtype=str)[there]
+    yield from _duration_rows(about, durations[there], distance, types, settings)
+    assert found.chance is not None
+    share = found.near / found.tags
+    bound = float(np.quantile(found.chance / found.tags, 0.975))
+    yield {**about, "claim": "N19", "statistic": "share of tags with a minimum in the window",
+           "estimate": share, "bound": bound, "holds": share > bound, "n": found.tags,
+           "note": "bound: 97.5 % of sets of random tags"}  # fmt: skip
+    moved = found.moved / found.tags
+    yield {**about, "claim": "N20", "statistic": "share of tags moved", "estimate": moved,
+           "bound": MAJORITY, "holds": moved > MAJORITY, "n": found.tags}  # fmt: skip
+    change = float(np.median(np.concatenate(found.changes))) if len(durations) else np.nan
+    yield {**about, "claim": "N21", "statistic": "median change of duration (s)",
+           "estimate": change, "bound": VISIBLE_S, "holds": change >= VISIBLE_S,
+           "n": len(durations)}  # fmt: skip
+
+
+def _duration_rows(
+    about: Mapping[str, Any],
+    durations: Floats,
+    distance: Floats,
+    types: NDArray[np.str_],
+    settings: Mapping[str, Any],
+) -> Iterator[dict[str, Any]]:
+    """Yield N05 and N12, with outliers and, where there are any, without."""
+    out = outliers(durations, settings["transitions"]["outlier_iqr"])
+    for label, kept in (("kept", np.full(len(durations), True)), ("left out", ~out)):
+        if label == "left out" and not out.any():
+            continue
+        yield {**about, "outliers": label, **_n05(durations[kept], distance[kept])}
+        yield {**about, "outliers": label, **_n12(durations[kept], types[kept])}
+
+
+def _n05(durations: Floats, distance: Floats) -> dict[str, Any]:
+    there = ~np.isnan(distance)
+    x, y = distance[there], durations[there]
+    row: dict[str, Any] = {"claim": "N05", "statistic": "Pearson r", "bound": 0.0, "n": len(x)}
+    if len(x) < LEAST or np.ptp(x) == 0 or np.ptp(y) == 0:
+        return {**row, "estimate": np.nan, "holds": False, "note": "too few pairs, or no spread"}
+    found = stats.pearsonr(x, y)
+    holds = found.statistic > 0 and found.pvalue < ALPHA
+    return {**row, "estimate": float(found.statistic), "holds": bool(holds)}
+
+
+def _n12(durations: Floats, types: NDArray[np.str_]) -> dict[str, Any]:
+    groups = [durations[types == kind] for kind in sorted(set(types) - {""})]
+    kept = [group for group in groups if len(group) > 1]
+    n = sum(map(len, kept))
+    row: dict[str, Any] = {"claim": "N12", "statistic": "p of the ANOVA", "bound": ALPHA, "n": n}
+    if len(kept) < 2 or n <= len(kept) or not any(np.ptp(group) for group in kept):
+        return {**row, "estimate": np.nan, "holds": False, "note": "fewer than two groups"}
+    p = float(stats.f_oneway(*kept).pvalue)
+    return {**row, "estimate": p, "holds": p >= ALPHA}

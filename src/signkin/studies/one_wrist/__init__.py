@@ -1,0 +1,1 @@
+"""The two papers' methods on the same wrists."""

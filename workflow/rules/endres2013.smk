@@ -1,0 +1,174 @@
+# Endres, Meirovitch, Flash & Giese 2013: single signs, ground truth, binning, tables and figures.
+
+
+rule single_signs:
+    """Wrist paths into bins, as recorded and with power-law timing (2.2 to 2.4)."""
+    input:
+        recordings=rules.ingest.output.recordings,
+    output:
+        trajectories="<results>/endres2013/{corpus}/shards/{shard}/trajectories.parquet",
+        ground_truth="<results>/endres2013/{corpus}/shards/{shard}/ground_truth.csv",
+        rejected_draws="<results>/endres2013/{corpus}/shards/{shard}/rejected_draws.csv",
+        binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/not_cut.csv",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/single_signs.log",
+    params:
+        code=PLAN.digest("endres2013/single_signs.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/endres2013/single_signs.py"
+
+
+rule bin_single_signs:
+    """Bayesian binning with every polynomial order (2.5, 3)."""
+    input:
+        rules.compile_kernels.output,
+        trajectories=rules.single_signs.output.trajectories,
+    output:
+        binning="<results>/endres2013/{corpus}/shards/{shard}/binning.csv",
+        truths="<results>/endres2013/{corpus}/shards/{shard}/fitted_truths.csv",
+        left_out="<results>/endres2013/{corpus}/shards/{shard}/not_binned.csv",
+        posteriors="<results>/endres2013/{corpus}/shards/{shard}/posteriors.parquet",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/binning.log",
+    params:
+        code=PLAN.digest("endres2013/bin_single_signs.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={
+            k: v
+            for k, v in config["binning"].items()
+            if k not in ("sensitivity", "continuous")
+        },
+    script:
+        "../scripts/endres2013/bin_single_signs.py"
+
+
+rule endres_tables:
+    """Order posteriors, hit rates, chance lines and tests, for a whole corpus (3.1 to 3.3)."""
+    input:
+        binning=of_shards(rules.bin_single_signs.output.binning),
+        fitted_truths=of_shards(rules.bin_single_signs.output.truths),
+        ground_truth=of_shards(rules.single_signs.output.ground_truth),
+        rejected_draws=of_shards(rules.single_signs.output.rejected_draws),
+        not_cut=of_shards(rules.single_signs.output.binning_left_out),
+        not_binned=of_shards(rules.bin_single_signs.output.left_out),
+        trajectories=of_shards(rules.single_signs.output.trajectories),
+    output:
+        binning="<results>/endres2013/{corpus}/binning.csv",
+        truths="<results>/endres2013/{corpus}/fitted_truths.csv",
+        ground_truth="<results>/endres2013/{corpus}/ground_truth.csv",
+        rejected="<results>/endres2013/{corpus}/rejected_draws.csv",
+        left_out="<results>/endres2013/{corpus}/left_out.csv",
+        orders="<results>/endres2013/{corpus}/order_posteriors.csv",
+        rates="<results>/endres2013/{corpus}/hit_rates.csv",
+        lines="<results>/endres2013/{corpus}/chance_lines.csv",
+        tests="<results>/endres2013/{corpus}/order_tests.csv",
+    log:
+        "<logs>/endres2013/{corpus}/tables.log",
+    params:
+        code=PLAN.digest("endres2013/tables.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            k: config["binning"][k]
+            for k in ("window_s", "bootstrap_draws", "chance_trajectories")
+        },
+    script:
+        "../scripts/endres2013/tables.py"
+
+
+rule endres_figures:
+    """Figures 1, 3 to 7 and A1, with the numbers drawn in them."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        trajectories=of_shards(rules.single_signs.output.trajectories),
+        posteriors=of_shards(rules.bin_single_signs.output.posteriors),
+        ground_truth=rules.endres_tables.output.ground_truth,
+        order_posteriors=rules.endres_tables.output.orders,
+        hit_rates=rules.endres_tables.output.rates,
+        chance_lines=rules.endres_tables.output.lines,
+        order_tests=rules.endres_tables.output.tests,
+    output:
+        svg=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.svg",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        pdf=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.pdf",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        csv=collect(
+            "<results>/endres2013/{{corpus}}/{figure}.csv",
+            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
+        ),
+        captions="<results>/endres2013/{corpus}/captions.json",
+    log:
+        "<logs>/endres2013/{corpus}/figures.log",
+    params:
+        code=PLAN.digest("endres2013/figures.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/endres2013/figures.py"
+
+
+rule sensitivity:
+    """What the paper does not print, varied: prior and bins (3.2)."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        ground_truth=rules.endres_tables.output.ground_truth,
+    output:
+        table="<results>/endres2013/{corpus}/sensitivity.csv",
+        svg="<results>/endres2013/{corpus}/fig_sensitivity.svg",
+        pdf="<results>/endres2013/{corpus}/fig_sensitivity.pdf",
+        caption="<results>/endres2013/{corpus}/sensitivity.txt",
+    log:
+        "<logs>/endres2013/{corpus}/sensitivity.log",
+    threads: 2
+    params:
+        code=PLAN.digest("endres2013/open_choices.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": config["binning"],
+            "powerlaw": config["powerlaw"],
+        },
+    script:
+        "../scripts/endres2013/open_choices.py"
+
+
+rule binning_scheme:
+    """The model as a drawing (Fig. 2)."""
+    output:
+        svg="<results>/endres2013/fig02.svg",
+        pdf="<results>/endres2013/fig02.pdf",
+        csv="<results>/endres2013/fig02.csv",
+    log:
+        "<logs>/endres2013/scheme.log",
+    params:
+        code=PLAN.digest("endres2013/scheme.py"),
+    script:
+        "../scripts/endres2013/scheme.py"
+
+
+rule endres2013:
+    """Tables and figures of Endres et al. 2013 for every corpus of single signs."""
+    input:
+        collect(rules.endres_tables.output, corpus=PLAN.single_signs),
+        collect(rules.endres_figures.output, corpus=PLAN.single_signs),
+        collect(rules.sensitivity.output, corpus=PLAN.single_signs),
+        collect(rules.one_wrist.output, corpus=PLAN.continuous),
+        collect(rules.binning_elan.output, corpus=PLAN.with_elan),
+        rules.binning_scheme.output,

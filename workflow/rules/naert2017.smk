@@ -1,0 +1,402 @@
+# Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
+
+SYNTHESIS = {
+    k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
+}
+
+
+rule refine:
+    """Manual tags moved to speed minima, per hand (4.2)."""
+    input:
+        intervals=rules.ingest.output.intervals,
+        about=rules.ingest.output.about,
+        minima=rules.kinematics.output.minima,
+        excluded=rules.kinematics.output.excluded,
+    output:
+        boundaries="<results>/naert2017/{corpus}/shards/{shard}/boundaries.csv",
+    log:
+        "<logs>/naert2017/{corpus}/{shard}/refine.log",
+    params:
+        code=PLAN.digest("naert2017/refine.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings=config["refinement"],
+    script:
+        "../scripts/naert2017/refine.py"
+
+
+rule transitions:
+    """Durations, posture distances and four-digit types (5.1)."""
+    input:
+        recordings=rules.ingest.output.recordings,
+        frames=rules.kinematics.output.frames,
+        intervals=rules.ingest.output.intervals,
+        boundaries=rules.refine.output.boundaries,
+        description=lambda w: PLAN.description(w.corpus),
+    output:
+        sign_types="<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
+        transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
+        speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
+    log:
+        "<logs>/naert2017/{corpus}/{shard}/transitions.log",
+    params:
+        code=PLAN.digest("naert2017/transitions.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={k: config[k] for k in ("kinematics", "transitions", "sign_types")},
+    script:
+        "../scripts/naert2017/transitions.py"
+
+
+rule naert_tables:
+    """Table 1, Table 2, quality of the refinement, for a whole corpus."""
+    input:
+        boundaries=lambda w: collect(
+            "<results>/naert2017/{corpus}/shards/{shard}/boundaries.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        sign_types=lambda w: collect(
+            "<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        transitions=lambda w: collect(
+            "<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        about=rules.gather.output.recordings,
+        intervals=rules.gather.output.intervals,
+        minima=rules.gather.output.minima,
+        published=PLAN.papers / "naert2017" / "table2.csv",
+    output:
+        boundaries="<results>/naert2017/{corpus}/boundaries.csv",
+        sign_types="<results>/naert2017/{corpus}/sign_types.csv",
+        transitions="<results>/naert2017/{corpus}/transitions.csv",
+        lexicon="<results>/naert2017/{corpus}/lexicon.csv",
+        left_out="<results>/naert2017/{corpus}/transitions_left_out.csv",
+        table1="<results>/naert2017/{corpus}/table1.csv",
+        table2="<results>/naert2017/{corpus}/table2.csv",
+        refinement="<results>/naert2017/{corpus}/refinement.csv",
+        quality=multiext("<results>/naert2017/{corpus}/fig_refinement", ".svg", ".pdf"),
+    log:
+        "<logs>/naert2017/{corpus}/tables.log",
+    params:
+        code=PLAN.digest("naert2017/tables.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={k: config[k] for k in ("refinement", "transitions")},
+    script:
+        "../scripts/naert2017/tables.py"
+
+
+rule naert_figures:
+    """Figures 4 to 10, with the numbers drawn in them."""
+    input:
+        boundaries=rules.naert_tables.output.boundaries,
+        sign_types=rules.naert_tables.output.sign_types,
+        transitions=rules.naert_tables.output.transitions,
+        minima=rules.gather.output.minima,
+        frames=lambda w: collect(
+            "<results>/{corpus}/kinematics/{shard}.parquet",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        published=PLAN.papers / "naert2017" / "table2.csv",
+    output:
+        svg=collect(
+            "<results>/naert2017/{{corpus}}/{figure}.svg",
+            figure=[f"fig{n:02d}" for n in range(4, 11)],
+        ),
+        pdf=collect(
+            "<results>/naert2017/{{corpus}}/{figure}.pdf",
+            figure=[f"fig{n:02d}" for n in range(4, 11)],
+        ),
+        csv=collect(
+            "<results>/naert2017/{{corpus}}/{figure}.csv",
+            figure=[f"fig{n:02d}" for n in range(4, 11)],
+        ),
+        diamond="<results>/naert2017/{corpus}/diamond.csv",
+        captions="<results>/naert2017/{corpus}/captions.json",
+    log:
+        "<logs>/naert2017/{corpus}/figures.log",
+    params:
+        code=PLAN.digest("naert2017/figures.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={k: config[k] for k in ("kinematics", "transitions")},
+    script:
+        "../scripts/naert2017/figures.py"
+
+
+rule write_elan:
+    """Refined tags written back: the .eaf with two tiers added."""
+    input:
+        boundaries=rules.naert_tables.output.boundaries,
+        about=rules.gather.output.recordings,
+        annotation=lambda w: PLAN.annotation_files(w.corpus),
+    output:
+        folder=directory("<results>/naert2017/{corpus}/eaf"),
+    log:
+        "<logs>/naert2017/{corpus}/elan.log",
+    params:
+        code=PLAN.digest("naert2017/elan.py"),
+        data=lambda w: str(PLAN.folders[w.corpus]),
+    script:
+        "../scripts/naert2017/elan.py"
+
+
+rule simulation_check:
+    """Simulated corpora only: tags and surface against the known truth."""
+    input:
+        boundaries=rules.naert_tables.output.boundaries,
+        transitions=rules.naert_tables.output.transitions,
+        truth="<results>/{corpus}/simulated/truth.csv",
+        design="<results>/{corpus}/simulated/design.csv",
+        constants=PLAN.papers / "naert2017" / "constants.csv",
+    output:
+        truth_error="<results>/naert2017/{corpus}/truth_error.csv",
+        surface="<results>/naert2017/{corpus}/surface.csv",
+        figure=multiext("<results>/naert2017/{corpus}/fig_simulation", ".svg", ".pdf"),
+    log:
+        "<logs>/naert2017/{corpus}/simulation.log",
+    params:
+        code=PLAN.digest("naert2017/simulation_check.py"),
+        seed=config["seed"],
+        settings={k: config[k] for k in ("refinement", "transitions")},
+    script:
+        "../scripts/naert2017/simulation_check.py"
+
+
+rule naert2017:
+    """Tables and figures of Naert et al. 2017 for every corpus with tags."""
+    input:
+        collect(rules.naert_tables.output, corpus=PLAN.tagged),
+        collect(rules.naert_figures.output, corpus=PLAN.tagged),
+        collect(rules.write_elan.output, corpus=PLAN.with_elan),
+        collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),
+
+
+rule synthesis:
+    """Every captured transition made anew by each method (5.2)."""
+    input:
+        recordings=lambda w: collect(
+            "<results>/{corpus}/recordings/{shard}.parquet",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        intervals=rules.gather.output.intervals,
+        excluded=rules.gather.output.excluded,
+        description=lambda w: PLAN.description(w.corpus),
+    output:
+        synthesis="<results>/naert2017/{corpus}/synthesis/synthesis.csv",
+        summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
+    log:
+        "<logs>/naert2017/{corpus}/synthesis.log",
+    params:
+        code=PLAN.digest("naert2017/synthesis.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings=SYNTHESIS,
+        draws=config["refinement"]["draws"],
+    script:
+        "../scripts/naert2017/synthesis.py"
+
+
+rule synthesis_figures:
+    """Figures 1, 2, 12 and 13, with the numbers drawn in them."""
+    input:
+        recordings=rules.synthesis.input.recordings,
+        intervals=rules.gather.output.intervals,
+        excluded=rules.gather.output.excluded,
+        description=lambda w: PLAN.description(w.corpus),
+        constants=PLAN.papers / "naert2017" / "constants.csv",
+        synthesis=rules.synthesis.output.synthesis,
+    output:
+        multiext(
+            "<results>/naert2017/{corpus}/fig",
+            *[
+                f"{n}.{s}"
+                for n in ("01", "02", "12", "13")
+                for s in ("svg", "pdf", "csv")
+            ],
+        ),
+        captions="<results>/naert2017/{corpus}/synthesis/captions.json",
+    log:
+        "<logs>/naert2017/{corpus}/synthesis_figures.log",
+    params:
+        code=PLAN.digest("naert2017/synthesis_figures.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings=SYNTHESIS,
+    script:
+        "../scripts/naert2017/synthesis_figures.py"
+
+
+if PLAN.with_found_signs:
+
+    rule composition_figures:
+        """Figures 1, 2 and 13 of a corpus without tags."""
+        input:
+            recordings=lambda w: collect(
+                "<results>/{corpus}/recordings/{shard}.parquet",
+                corpus=w.corpus,
+                shard=PLAN.shards(w.corpus),
+            ),
+            intervals=rules.gather.output.intervals,
+            excluded=rules.gather.output.excluded,
+            description=lambda w: PLAN.description(w.corpus),
+            constants=PLAN.papers / "naert2017" / "constants.csv",
+        output:
+            multiext(
+                "<results>/naert2017/{corpus}/fig",
+                *[
+                    f"{n}.{s}"
+                    for n in ("01", "02", "13")
+                    for s in ("svg", "pdf", "csv")
+                ],
+            ),
+            captions="<results>/naert2017/{corpus}/synthesis/captions.json",
+        log:
+            "<logs>/naert2017/{corpus}/composition_figures.log",
+        wildcard_constraints:
+            corpus="|".join(PLAN.with_found_signs),
+        params:
+            code=PLAN.digest("naert2017/synthesis_figures.py"),
+            corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+            settings=SYNTHESIS,
+        script:
+            "../scripts/naert2017/synthesis_figures.py"
+
+    ruleorder: composition_figures > synthesis_figures
+
+
+rule utterances:
+    """The utterances of config.yaml, as BVH or table, with their parts (3.1)."""
+    input:
+        recordings=rules.synthesis.input.recordings,
+        intervals=rules.gather.output.intervals,
+        excluded=rules.gather.output.excluded,
+        description=lambda w: PLAN.description(w.corpus),
+        data=lambda w: PLAN.corpora_files(w.corpus),
+        constants=PLAN.papers / "naert2017" / "constants.csv",
+    output:
+        folder=directory("<results>/naert2017/{corpus}/synthesis/utterances"),
+        parts="<results>/naert2017/{corpus}/synthesis/utterances.csv",
+        found="<results>/naert2017/{corpus}/synthesis/found_signs.csv",
+    log:
+        "<logs>/naert2017/{corpus}/utterances.log",
+    params:
+        code=PLAN.digest("naert2017/utterances.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        data=lambda w: str(PLAN.folders[w.corpus]),
+        settings=SYNTHESIS,
+    script:
+        "../scripts/naert2017/utterances.py"
+
+
+rule syntheses:
+    """Synthesis for every corpus with tags, or with takes of one sign."""
+    input:
+        collect(rules.synthesis.output, corpus=PLAN.tagged),
+        collect(rules.synthesis_figures.output, corpus=PLAN.tagged),
+        collect(
+            rules.composition_figures.output if PLAN.with_found_signs else [],
+            corpus=PLAN.with_found_signs,
+        ),
+        collect(rules.utterances.output, corpus=PLAN.tagged + PLAN.with_found_signs),
+
+
+rule duration_statistics:
+    """Do durations differ by type, and with distance? (5.1)"""
+    input:
+        transitions=rules.naert_tables.output.transitions,
+    output:
+        statistics="<results>/naert2017/{corpus}/statistics.csv",
+    log:
+        "<logs>/naert2017/{corpus}/statistics.log",
+    params:
+        code=PLAN.digest("naert2017/duration_statistics.py"),
+        unit=lambda w: PLAN.corpora[w.corpus].unit,
+        seed=config["seed"],
+        settings={k: config[k] for k in ("transitions", "durations")},
+    script:
+        "../scripts/naert2017/duration_statistics.py"
+
+
+rule duration_models:
+    """SIMPLE, BOUNDED, LINEAR and SURFACE against the truth (5.2)."""
+    input:
+        transitions=rules.naert_tables.output.transitions,
+        speeds=lambda w: collect(
+            "<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        constants=PLAN.papers / "naert2017" / "constants.csv",
+    output:
+        speeds="<results>/naert2017/{corpus}/transition_speeds.csv",
+        models="<results>/naert2017/{corpus}/duration_models.csv",
+        coefficients="<results>/naert2017/{corpus}/duration_coefficients.csv",
+        predictions="<results>/naert2017/{corpus}/fig_durations.csv",
+        figure=multiext("<results>/naert2017/{corpus}/fig_durations", ".svg", ".pdf"),
+    log:
+        "<logs>/naert2017/{corpus}/duration_models.log",
+    params:
+        code=PLAN.digest("naert2017/duration_models.py"),
+        unit=lambda w: PLAN.corpora[w.corpus].unit,
+        seed=config["seed"],
+        settings={k: config[k] for k in ("transitions", "durations")},
+    script:
+        "../scripts/naert2017/duration_models.py"
+
+
+rule duration_surface:
+    """The surface of duration over both distances (Fig. 11)."""
+    input:
+        transitions=rules.naert_tables.output.transitions,
+        speeds=rules.duration_models.output.speeds,
+    output:
+        svg="<results>/naert2017/{corpus}/fig11.svg",
+        pdf="<results>/naert2017/{corpus}/fig11.pdf",
+        csv="<results>/naert2017/{corpus}/fig11.csv",
+    log:
+        "<logs>/naert2017/{corpus}/duration_surface.log",
+    params:
+        code=PLAN.digest("naert2017/duration_surface.py"),
+        unit=lambda w: PLAN.corpora[w.corpus].unit,
+        settings={k: config[k] for k in ("transitions", "durations")},
+    script:
+        "../scripts/naert2017/duration_surface.py"
+
+
+rule naert2017_durations:
+    """Everything about durations for every corpus with tags."""
+    input:
+        collect(rules.duration_statistics.output, corpus=PLAN.tagged),
+        collect(rules.duration_models.output, corpus=PLAN.tagged),
+        collect(rules.duration_surface.output, corpus=PLAN.oriented),
+
+
+rule multiverse:
+    """Claims of Naert et al. under every combination of open choices."""
+    input:
+        recordings=lambda w: collect(
+            "<results>/{corpus}/recordings/{shard}.parquet",
+            corpus=w.corpus,
+            shard=PLAN.shards(w.corpus),
+        ),
+        intervals=rules.gather.output.intervals,
+        excluded=rules.gather.output.excluded,
+        transitions=rules.naert_tables.output.transitions,
+    output:
+        table="<results>/naert2017/{corpus}/multiverse.csv",
+    log:
+        "<logs>/naert2017/{corpus}/multiverse.log",
+    params:
+        code=PLAN.digest("naert2017/open_choices.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={
+            k: config[k]
+            for k in ("kinematics", "refinement", "transitions", "multiverse")
+        },
+    script:
+        "../scripts/naert2017/open_choices.py"

@@ -1,0 +1,77 @@
+# Two papers, one wrist: long series by Bayesian binning beside speed minima and tags.
+
+
+rule long_series:
+    """Wrists of continuous recordings as long series, with a longest segment."""
+    input:
+        rules.compile_kernels.output,
+        recordings=rules.ingest.output.recordings,
+    output:
+        wrist_posteriors="<results>/endres2013/{corpus}/shards/{shard}/wrist_posteriors.csv",
+        wrist_boundaries="<results>/endres2013/{corpus}/shards/{shard}/wrist_boundaries.csv",
+        binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/wrists_left_out.csv",
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/long_series.log",
+    threads: 2
+    params:
+        code=PLAN.digest("one_wrist/long_series.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        settings={
+            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
+            "binning": {
+                k: config["binning"][k] for k in ("lowpass", "prior", "continuous")
+            },
+        },
+    script:
+        "../scripts/one_wrist/long_series.py"
+
+
+rule one_wrist:
+    """Two papers, one wrist: boundaries by binning against speed minima and tags."""
+    input:
+        wrist_posteriors=of_shards(rules.long_series.output.wrist_posteriors),
+        wrist_boundaries=of_shards(rules.long_series.output.wrist_boundaries),
+        binning_left_out=of_shards(rules.long_series.output.binning_left_out),
+        about=rules.gather.output.recordings,
+        minima=rules.gather.output.minima,
+        tags=branch(
+            lambda w: w.corpus in PLAN.tagged,
+            then=rules.naert_tables.output.boundaries,
+            otherwise=[],
+        ),
+        frames=of_shards(rules.kinematics.output.frames),
+    output:
+        posteriors="<results>/endres2013/{corpus}/wrist_posteriors.csv",
+        boundaries="<results>/endres2013/{corpus}/wrist_boundaries.csv",
+        left_out="<results>/endres2013/{corpus}/wrists_left_out.csv",
+        table="<results>/endres2013/{corpus}/one_wrist.csv",
+        csv="<results>/endres2013/{corpus}/fig_one_wrist.csv",
+        svg="<results>/endres2013/{corpus}/fig_one_wrist.svg",
+        pdf="<results>/endres2013/{corpus}/fig_one_wrist.pdf",
+        caption="<results>/endres2013/{corpus}/one_wrist.txt",
+    log:
+        "<logs>/endres2013/{corpus}/one_wrist.log",
+    params:
+        code=PLAN.digest("one_wrist/analysis.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=config["seed"],
+        settings={k: config["binning"][k] for k in ("window_s", "continuous")},
+    script:
+        "../scripts/one_wrist/analysis.py"
+
+
+rule binning_elan:
+    """Segments by binning in the .eaf, as tiers of their own."""
+    input:
+        boundaries=rules.one_wrist.output.boundaries,
+        about=rules.gather.output.recordings,
+        annotation=lambda w: PLAN.annotation_files(w.corpus),
+    output:
+        folder=directory("<results>/endres2013/{corpus}/eaf"),
+    log:
+        "<logs>/endres2013/{corpus}/elan.log",
+    params:
+        code=PLAN.digest("one_wrist/elan.py"),
+        data=lambda w: str(PLAN.folders[w.corpus]),
+    script:
+        "../scripts/one_wrist/elan.py"

@@ -1,0 +1,17 @@
+from signkin.job import job
+
+with job(snakemake):
+    from pathlib import Path
+
+    from signkin import tables
+    from signkin.studies.naert2017.elan import refined_copies
+
+    folder = Path(snakemake.output.folder)
+    folder.mkdir(parents=True)
+    copies = refined_copies(
+        Path(snakemake.params.data),
+        tables.read_table(snakemake.input.about, "recordings"),
+        tables.read_table(snakemake.input.boundaries, "boundaries"),
+    )
+    for name, content in copies.items():
+        (folder / name).write_bytes(content)

@@ -1,0 +1,22 @@
+from signkin.job import job
+
+with job(snakemake):
+    from itertools import chain
+    from pathlib import Path
+
+    from signkin import tables
+    from signkin.corpus import load_corpus
+    from signkin.io.store import read_recordings
+    from signkin.studies.naert2017.open_choices import multiverse
+
+    corpus = load_corpus(Path(snakemake.params.corpus))
+    table = multiverse(
+        corpus,
+        chain.from_iterable(read_recordings(path) for path in snakemake.input.recordings),
+        tables.read_table(snakemake.input.intervals, "intervals"),
+        tables.read_table(snakemake.input.transitions, "transitions"),
+        tables.read_table(snakemake.input.excluded, "excluded"),
+        snakemake.params.settings,
+        snakemake.params.seed,
+    )
+    tables.write_table(table, snakemake.output.table, "multiverse", corpus.unit)

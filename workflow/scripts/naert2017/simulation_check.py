@@ -1,0 +1,30 @@
+from signkin.job import job
+
+with job(snakemake):
+    import pandas as pd
+
+    from signkin import tables
+    from signkin.figures.style import paper_style, save
+    from signkin.studies.naert2017 import exhibits as naert2017
+    from signkin.studies.naert2017 import simulation
+
+    source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
+    name = snakemake.wildcards.corpus
+    summary, errors = simulation.truth_error(
+        name,
+        tables.read_table(source.boundaries, "boundaries"),
+        tables.read_table(source.truth, "truth"),
+        settings["refinement"]["draws"],
+        snakemake.params.seed,
+    )
+    surface = simulation.surface(
+        name,
+        tables.read_table(source.transitions, "transitions"),
+        tables.read_table(source.design, "design"),
+        pd.read_csv(source.constants, dtype=str, keep_default_na=False),
+        settings["transitions"]["euclidean_unit_m"],
+    )
+    tables.write_table(summary, out.truth_error, "truth_error")
+    tables.write_table(surface, out.surface, "surface")
+    with paper_style():
+        save(naert2017.draw_simulation(errors, surface), *out.figure)

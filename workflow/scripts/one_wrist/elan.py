@@ -1,0 +1,17 @@
+from signkin.job import job
+
+with job(snakemake):
+    from pathlib import Path
+
+    from signkin import tables
+    from signkin.studies.one_wrist.long_series import copies
+
+    folder = Path(snakemake.output.folder)
+    folder.mkdir(parents=True)
+    made = copies(
+        Path(snakemake.params.data),
+        tables.read_table(snakemake.input.about, "recordings"),
+        tables.read_table(snakemake.input.boundaries, "wrist_boundaries"),
+    )
+    for name, content in made.items():
+        (folder / name).write_bytes(content)

@@ -1,0 +1,15 @@
+from signkin.job import job
+
+with job(snakemake):
+    from pathlib import Path
+
+    from signkin import tables
+    from signkin.figures.style import paper_style, save
+    from signkin.pages.run import SPEED_PANELS
+    from signkin.studies.naert2017.exhibits import draw_speeds
+
+    minima = tables.read_table(snakemake.input.minima, "minima")
+    frames = [Path(path) for path in snakemake.input.frames]
+    with paper_style():
+        figure = draw_speeds(frames, minima, snakemake.params.unit, SPEED_PANELS)
+        save(figure, *snakemake.output.figure)
