@@ -5,7 +5,6 @@
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
-# make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make clean         take away what a run made; the environment stays
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
