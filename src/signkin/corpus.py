@@ -1,6 +1,6 @@
 """A corpus as a folder: corpus.yaml, recordings.csv, signs.csv, checked before anything runs.
 
-JSON Schemas (workflow/schemas) check shapes and words; this module adds what
+JSON Schemas (signkin/schemas) check shapes and words; this module adds what
 schemas cannot say: doubled rows, files that are not there, joint names outside
 the vocabulary, sign types that contradict themselves.
 """
@@ -13,6 +13,7 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from signkin import joints as joint_names
 from signkin.errors import SignkinError, listed
 from signkin.yaml_file import read_yaml
 
-SCHEMAS = Path(__file__).resolve().parents[2] / "workflow" / "schemas"
+SCHEMAS = files("signkin") / "schemas"
 GUIDE = "See docs/adding-a-corpus.md."
 
 
@@ -170,7 +171,7 @@ def load_corpus(folder: Path) -> Corpus:
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
-    """Check a value against workflow/schemas/<schema>.schema.yaml; the error names the key."""
+    """Check a value against signkin/schemas/<schema>.schema.yaml; the error names the key."""
     errors = sorted(_validator(schema).iter_errors(content), key=lambda e: list(map(str, e.path)))
     if not errors:
         return

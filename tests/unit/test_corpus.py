@@ -84,7 +84,7 @@ def test_the_shipped_corpora_are_right(root):
 
 
 def test_formats_of_the_schema_are_those_that_can_be_read(root):
-    schema = yaml.safe_load((root / "workflow/schemas/corpus.schema.yaml").read_text())
+    schema = yaml.safe_load((root / "src/signkin/schemas/corpus.schema.yaml").read_text())
     properties = schema["properties"]
     assert set(properties["motion"]["properties"]["format"]["enum"]) == set(motion_formats())
     formats = properties["annotation"]["properties"]["format"]["enum"]
