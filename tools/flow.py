@@ -15,8 +15,8 @@ PLACE = "flow"
 # Packages that are shown box by box; every other module right below signkin is a box or `base`.
 OPEN = ("studies",)
 PARTS = (
-    "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics", "figures",
-    "report", "audit", "stages", "studies", "pages", "corpus",
+    "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics",
+    "figures", "report", "audit", "stages", "studies", "pages", "corpus",
 )  # fmt: skip
 
 
