@@ -10,7 +10,7 @@ import pandas as pd
 import statsmodels.formula.api as smf
 from scipy import stats
 
-from signkin.statistics.findings import Finding, untestable
+from signkin.statistics.findings import Finding, Kind, untestable
 
 TEST = "mixed model, likelihood ratio"
 EDGE = 1e-5  # a gain in log-likelihood that is none
@@ -28,11 +28,15 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
     n = len(data)
     signers, recordings = data["signer"].nunique(), data["recording"].nunique()
     if data["group"].nunique() < 2:
-        return [untestable(TEST, comparison, n, "fewer than two groups")]
+        return [untestable(TEST, Kind.DIFFERENCE, comparison, n, "fewer than two groups")]
     if recordings < 2:
-        return [untestable(TEST, comparison, n, "one recording only: no random effect to tell")]
+        return [
+            untestable(
+                TEST, Kind.DIFFERENCE, comparison, n, "one recording only: no random effect to tell"
+            )
+        ]
     if np.ptp(data["duration_s"]) == 0:
-        return [untestable(TEST, comparison, n, "all durations are equal")]
+        return [untestable(TEST, Kind.DIFFERENCE, comparison, n, "all durations are equal")]
     recording = "recording" if signers > 1 and recordings > signers else ""
     outer = "signer" if signers > 1 else "recording"
     told = [f"random intercepts: {' and '.join(filter(None, (outer, recording)))}"]
@@ -43,24 +47,48 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
     full = _fit("duration_s ~ C(group)", data, outer, recording, caught)
     null = _fit("duration_s ~ 1", data, outer, recording, caught)
     if full.variances[WITHIN] <= 1e-20:
-        return [untestable(TEST, comparison, n, "all durations within the groups are equal")]
+        return [
+            untestable(
+                TEST, Kind.DIFFERENCE, comparison, n, "all durations within the groups are equal"
+            )
+        ]
     ratio = max(0.0, 2 * (full.llf - null.llf))
     df = data["group"].nunique() - 1
     told += sorted(caught)
     told.append("no effect size: see the variances")
-    out = [Finding(TEST, comparison, "chi squared", ratio, df, p=float(stats.chi2.sf(ratio, df)),
-                   n=n, note="; ".join(told))]  # fmt: skip
+    out = [
+        Finding(
+            TEST,
+            Kind.DIFFERENCE,
+            comparison,
+            (),
+            "chi squared",
+            ratio,
+            df,
+            p=float(stats.chi2.sf(ratio, df)),
+            n=n,
+            notes=tuple(told),
+        )
+    ]
     total = sum(full.variances.values())
     for name, variance in full.variances.items():
         out.append(
             Finding(
-                "mixed model, random effect", f"{comparison}: {name}", "SD (s)",
-                float(np.sqrt(variance)), effect_name="share of variance",
-                effect=variance / total, n=n,
-                note="of the variance that groups do not explain; no interval: variances near 0 "
-                "have none by maximum likelihood",
+                "mixed model, random effect",
+                Kind.VARIANCE,
+                f"{comparison}: {name}",
+                (),
+                "SD (s)",
+                float(np.sqrt(variance)),
+                effect_name="share of variance",
+                effect=variance / total,
+                n=n,
+                notes=(
+                    "of the variance that groups do not explain",
+                    "no interval: variances near 0 have none by maximum likelihood",
+                ),
             )
-        )  # fmt: skip
+        )
     return out
 
 
