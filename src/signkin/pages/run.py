@@ -20,6 +20,7 @@ from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.studies.endres2013 import report as endres_report
 from signkin.studies.naert2017.durations_report import duration_views
 from signkin.studies.naert2017.synthesis import report as synthesis_report
+from signkin.studies.one_wrist import report as one_wrist_report
 from signkin.tables import read_table
 
 S3 = ".3f"
@@ -76,6 +77,7 @@ def make_page(sources: Sources) -> Page:
     sections += endres_report.sections(
         sources.results, sources.endres, sources.corpora, sources.config
     )
+    sections += one_wrist_report.sections(sources.results, sources.corpora)
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
     return Page(
