@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import yaml
 
 from signkin.corpus import Corpus
+from signkin.exhibits import Exhibit, exhibits, of_groups
 from signkin.report.page import FigureView, Section, TableView
 from signkin.tables import read_table
 
@@ -19,22 +19,38 @@ P3 = ".3f"
 SIMULATED = " Simulated: a test of the method, no evidence about people."
 
 
-def exhibits(paper: Path) -> dict[str, dict[str, str]]:
-    """Return the entries of exhibits.yaml by id. paper: the folder papers/endres2013."""
-    text = (paper / "exhibits.yaml").read_text(encoding="utf-8")
-    return {entry["id"]: entry for entry in yaml.safe_load(text)["exhibits"]}
-
-
 def sections(
     results: Path, paper: Path, corpora: Mapping[str, Corpus], config: Mapping[str, Any]
 ) -> Iterator[Section]:
-    """Yield the sections of the study: the model, then the corpora of single signs."""
-    labels = exhibits(paper)
+    """Yield the sections of the study: the model, then the corpora of single signs.
+
+    paper: the folder papers/endres2013.
+    """
+    listing = exhibits(paper)
     folder = results / "endres2013"
-    yield _model(folder, labels["fig02"])
+    yield _model(folder, of_groups(listing, "scheme"))
     for name, corpus in corpora.items():
         if corpus.single_signs:
-            yield _single_signs(folder / name, name, corpus, labels, config)
+            shown = of_groups(listing, "figures")
+            yield _single_signs(folder / name, name, corpus, shown, config)
+
+
+def figure_views(folder: Path, listing: Iterable[Exhibit], told: str = "") -> Iterator[FigureView]:
+    """Yield the figures of a list, whose files and captions lie in a folder.
+
+    told: what is added to each caption.
+    """
+    captions = json.loads((folder / "captions.json").read_text(encoding="utf-8"))
+    for exhibit in listing:
+        base = folder / exhibit.stem
+        yield FigureView(
+            label=exhibit.label,
+            title=exhibit.title,
+            caption=captions[exhibit.stem] + told,
+            svg=base.with_suffix(".svg"),
+            files=figure_files(base),
+            differs=exhibit.differs,
+        )
 
 
 def figure_files(base: Path, *suffixes: str) -> list[Path]:
@@ -47,17 +63,7 @@ def badge(corpus: Corpus) -> str:
     return "simulated" if corpus.simulator else "real"
 
 
-def _model(folder: Path, exhibit: Mapping[str, str]) -> Section:
-    view = FigureView(
-        label=exhibit["label"],
-        title=exhibit["title"],
-        caption="A trajectory of T bins is cut into M + 1 segments by M inner boundaries; the mean "
-        "of segment m is a polynomial of order S in the time since its start, its noise has a "
-        "full covariance. Sums over all segmentations are exact.",
-        svg=folder / "fig02.svg",
-        files=figure_files(folder / "fig02"),
-        differs=exhibit["differs"],
-    )
+def _model(folder: Path, listing: Iterable[Exhibit]) -> Section:
     return Section(
         "binning",
         "Bayesian binning (Endres, Meirovitch, Flash & Giese 2013)",
@@ -66,30 +72,17 @@ def _model(folder: Path, exhibit: Mapping[str, str]) -> Section:
             "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of "
             "the prior decides its results: each corpus has a figure of how far."
         ],
-        exhibits=(view,),
+        exhibits=tuple(figure_views(folder, listing)),
     )
 
 
 def _single_signs(
-    folder: Path, name: str, corpus: Corpus, labels: Mapping[str, Any], config: Mapping[str, Any]
+    folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], config: Mapping[str, Any]
 ) -> Section:
-    captions = json.loads((folder / "captions.json").read_text(encoding="utf-8"))
     views: list[TableView | FigureView] = [_printed_and_found(folder)]
-    for identity, exhibit in labels.items():
-        if identity not in captions:
-            continue
-        base = folder / identity
-        views.append(
-            FigureView(
-                label=exhibit["label"],
-                title=exhibit["title"],
-                caption=captions[identity] + (SIMULATED if corpus.simulator else ""),
-                svg=base.with_suffix(".svg"),
-                files=figure_files(base),
-                differs=exhibit["differs"],
-            )
-        )
-        if identity == "fig06":
+    for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
+        views.append(view)
+        if view.svg.stem == "fig06":
             views += [_rates(folder, config), _tests(folder)]
     views.append(
         FigureView(
