@@ -11,7 +11,7 @@ import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
-from signkin.report.page import FigureView, Section, TableView
+from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.tables import read_table
 
 ALL = "all"
@@ -51,11 +51,6 @@ def figure_views(folder: Path, listing: Iterable[Exhibit], told: str = "") -> It
             files=figure_files(base),
             differs=exhibit.differs,
         )
-
-
-def figure_files(base: Path, *suffixes: str) -> list[Path]:
-    """Return the files of a figure: base with each suffix; all three where none is given."""
-    return [base.with_suffix(suffix) for suffix in suffixes or (".svg", ".pdf", ".csv")]
 
 
 def badge(corpus: Corpus) -> str:

@@ -8,8 +8,8 @@ from pathlib import Path
 import pandas as pd
 
 from signkin.corpus import Corpus
-from signkin.report.page import FigureView, Section, TableView
-from signkin.studies.endres2013.report import P3, SIMULATED, badge, figure_files, left_out
+from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.studies.endres2013.report import P3, SIMULATED, badge, left_out
 from signkin.tables import read_table
 
 KINDS = {"boundaries": "boundaries by binning", "minima": "speed minima"}

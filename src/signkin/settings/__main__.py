@@ -1,0 +1,21 @@
+"""`python -m signkin.settings FOLDER`: write config.yaml, its schema and its page anew."""
+
+import sys
+from pathlib import Path
+
+from signkin.corpus import SCHEMAS
+from signkin.settings.text import config_text, page_text, schema_text
+
+
+def generated(root: Path) -> dict[Path, str]:
+    """Return the generated files of a checkout and their content."""
+    return {
+        root / "config.yaml": config_text(),
+        root / "docs" / "configuration.md": page_text(),
+        SCHEMAS / "config.schema.yaml": schema_text(),
+    }
+
+
+if __name__ == "__main__":
+    for path, text in generated(Path(sys.argv[1] if len(sys.argv) > 1 else ".")).items():
+        path.write_text(text, encoding="utf-8")
