@@ -7,6 +7,7 @@
 # make docs          the pages of docs/ and the API as a site: build/docs/index.html
 # make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
+# make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
 
@@ -18,7 +19,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all utterance test lint unit coverage docs numbers bench lock bench-lock clean
+.PHONY: all utterance test lint unit coverage docs numbers settings bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -82,6 +83,9 @@ bench-lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --quiet \
 	  --constraint requirements.lock --override benchmarks/overrides.txt \
 	  requirements-bench.in -o requirements-bench.lock
+
+settings: $(VENV)/ready
+	$(BIN)/python -m signkin.settings .
 
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --all-extras \
