@@ -7,11 +7,16 @@ import os
 import shutil
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 from support.runs import Run, checked, prepare, run
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# How long an example takes is the machine's business: a busy one, or coverage, is no failure.
+hypothesis.settings.register_profile("signkin", deadline=None)
+hypothesis.settings.load_profile("signkin")
 
 
 @pytest.fixture(scope="session")
