@@ -9,9 +9,16 @@ from pathlib import Path
 
 import pytest
 
+from signkin.binning.compiled import forget_stale_kernels
 from support.runs import Run, checked, prepare, run
 
 ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernels_of_these_sources() -> None:
+    """Forget machine code of older sources, which numba would go on with."""
+    forget_stale_kernels()
 
 
 @pytest.fixture(scope="session")

@@ -88,6 +88,8 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with the process, so a killed run can simply go on.
     """
+    from signkin.binning.compiled import forget_stale_kernels
+
     folder = folder or Path.cwd()
     state = folder / ".snakemake"
     state.mkdir(exist_ok=True)
@@ -97,6 +99,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         except BlockingIOError:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
+        forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
         command += ["--profile", str(ROOT / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.

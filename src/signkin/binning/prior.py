@@ -15,7 +15,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import multigammaln
 
 from signkin.errors import SignkinError, listed
 
@@ -117,6 +116,8 @@ def _tables(
     longest: int, n_orders: int, dimensions: int, b: float, step: float, dof: float,
     inverse_scale: tuple[float, ...],
 ) -> Tables:  # fmt: skip
+    from scipy.special import multigammaln  # takes half as long to import as numba
+
     geometry = _geometry(longest, n_orders, b, step)
     n = np.arange(1, longest + 1)
     log_scale = float(np.sum(np.log(inverse_scale)))

@@ -12,9 +12,9 @@ eight, or `by_order`, (D, T, W): in both at [.., p, n - 1] that of n bins from b
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from signkin.binning.jit import helper, inlined, kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -34,7 +34,7 @@ I = NDArray[np.int64]  # noqa: E741
 LEAST = 1e-13  # probability of a segment that expectations pass over
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _append(
     x: F, at: int, cosine: F, sine: F, n: int, orders: int, z: F, old: int, new: int, r: F, rest: F
 ) -> None:  # fmt: skip
@@ -77,7 +77,7 @@ def _append(
                 q += 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
     """Fill out[d] (8,) with ln |I + R|, from pivots, which lose nothing.
 
@@ -115,7 +115,7 @@ def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
         store(out, (d, 0), value)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F) -> None:
     """Fill out, by segment or by order, with the log evidence of every segment.
 
@@ -155,7 +155,7 @@ def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, 
                         out[d, first + b, n] = values[d, b]
 
 
-@njit(nogil=True, error_model="numpy")
+@helper
 def _chances(segments: F, first: int, bins: int, wanted: I, chances: F, turned: F, far: I) -> None:
     """Fill chances[n] (D, 8) with the probabilities of segments from `first` on, by starts.
 
@@ -190,7 +190,7 @@ def _chances(segments: F, first: int, bins: int, wanted: I, chances: F, turned: 
                 far[d] = n + 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _noise_of_segments(
     r: F, d: int, n: int, weight: float, chances: F, dims: int, spread: F
 ) -> None:  # fmt: skip
@@ -204,7 +204,7 @@ def _noise_of_segments(
             q += 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _mean_of_segments(
     inverse: F, powers: F, z: F, d: int, far: int, chances: F, first: int, dims: int, sums: F,
     trail: F, mean: F,
@@ -245,7 +245,7 @@ def _mean_of_segments(
                 mean[d, k, first + b] += trail[k, b]
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _expectations(
     x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
     dims: int, mean: F, noise: F, z: F, chances: F,
@@ -287,7 +287,7 @@ def _expectations(
                 q += 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def expectations(
     x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
     mean: F, noise: F, z: F, chances: F,
