@@ -12,6 +12,7 @@ not fit: the last inner boundary is at most at bin T - 2.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from signkin.binning import segmentation
 from signkin.binning.evidence import by_order, expect, whitened_by
 from signkin.binning.prior import Prior, tables
-from signkin.errors import SignkinError
+from signkin.errors import SignkinError, listed
 
 Floats = NDArray[np.float64]
 
@@ -28,19 +29,21 @@ CLEARANCE_BINS = 3
 DIGITS_2 = 30  # binary digits, nine decimal ones, to which probabilities are compared
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Posterior:
     """What a trajectory says about its segments, for each polynomial order.
 
     orders: the orders, in the rows of the arrays. log_evidence_by_count: (orders, counts),
     ln P(D | M, S) for M = 0, 1, ... inner boundaries. log_evidence: (orders,), ln P(D | S).
     order_probability: (orders,), P(S | D). cut_mass: (orders,), a bound on the share of P(M | D)
-    beyond the counts that were worked out.
+    beyond the counts that were worked out. dt_s: duration of a bin, if told. sample_at: where in
+    its bin a sample stands, as a share of the bin.
     """
 
     x: Floats
     prior: Prior
     dt_s: float | None
+    sample_at: float
     orders: tuple[int, ...]
     max_segment_bins: int
     log_evidence_by_count: Floats
@@ -51,6 +54,19 @@ class Posterior:
     _boundary: Floats
     _mean: Floats | None
     _noise: Floats | None
+
+    def __repr__(self) -> str:
+        """Return three lines: the data, the order they prefer, and its boundaries."""
+        bins, dims = self.x.shape
+        best = self.orders[int(np.argmax(self.order_probability))]
+        share = float(self.order_probability.max())
+        count = self.map_count(best)
+        floor = ", the least possible" if self.at_floor(best) else ""
+        return (
+            f"Posterior of {bins} bins in {dims} dimensions, orders {listed(self.orders)}\n"
+            f"  preferred order {best}, P = {share:.3f}, ln P(D) = {self.log_evidence.max():.2f}\n"
+            f"  there {count} boundaries{floor}, P = {self.count_probability(best).max():.3f}"
+        )
 
     def _row(self, order: int) -> int:
         try:
@@ -85,18 +101,56 @@ class Posterior:
         wanted = self.map_count(order) if count is None else count
         return greedy_maxima(self.boundary_probability(order), wanted)
 
+    def boundaries_s(self, order: int, count: int | None = None) -> Floats:
+        """Return when the `boundaries` are, in s from the first bin's start (`times_s`)."""
+        return self.times_s(self.boundaries(order, count))
+
+    def times_s(self, ends: NDArray[np.int64] | Sequence[int]) -> Floats:
+        """Return when segments end that end with the bins given, in s.
+
+        Halfway between the samples of a segment's last bin and the next one's first (see
+        `boundary_times`). Raises SignkinError where the duration of a bin was not told.
+        """
+        if self.dt_s is None:
+            raise SignkinError(
+                "the duration of a bin was not told", place="fit", expected="fit(..., dt_s=...)"
+            )
+        return boundary_times(ends, self.dt_s, self.sample_at)
+
+    @property
+    def least_count(self) -> int:
+        """The least number of inner boundaries that the longest segment allows."""
+        return -(-len(self.x) // self.max_segment_bins) - 1
+
+    def at_floor(self, order: int) -> bool:
+        """Return whether the most probable M is the least possible, and not 0.
+
+        There the longest segment makes boundaries, and not the data: raise it, or say so.
+        """
+        return 0 < self.least_count == self.map_count(order)
+
+    def noise_misfit(self, order: int) -> float:
+        """Return how far the data lie off the expected trajectory, in SDs of the prior's noise.
+
+        The root of the mean square over bins and dimensions. About 1 where the noise fits; far
+        above, the polynomials do not follow the data or noise_sd is too small (a unit?); far
+        below, it is too large, and boundaries are lost.
+        """
+        deviations = np.asarray(self.prior.noise_sd, dtype=float)
+        off = (self.x - self.expected_trajectory(order)) / deviations
+        return float(np.sqrt(np.mean(off**2)))
+
     def map_segmentation(self, order: int, count: int | None = None) -> NDArray[np.int64]:
         """Return the inner boundaries of the most probable segmentation with `count` of them.
 
         Raises SignkinError for a count that no segmentation has.
         """
         wanted = self.map_count(order) if count is None else count
-        fewest = -(-len(self.x) // self.max_segment_bins) - 1
-        if not fewest <= wanted <= len(self.x) - 1:
+        if not self.least_count <= wanted <= len(self.x) - 1:
             raise SignkinError(
                 f"{wanted} boundaries in {len(self.x)} bins",
                 place="count",
-                expected=f"from {fewest} to {len(self.x) - 1}",
+                expected=f"from {self.least_count} to {len(self.x) - 1}",
             )
         return segmentation.best_boundaries(self._evidence(order), wanted + 1)
 
@@ -137,6 +191,19 @@ class Posterior:
         made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
         whitened = whitened_by(self.x, self.prior)
         return by_order(whitened, bins, made, self.max_segment_bins)[order]
+
+
+def boundary_times(
+    ends: NDArray[np.int64] | Sequence[int], bin_s: float, sample_at: float = 0.5
+) -> Floats:
+    """Return when segments end that end with the bins given, in s from the first bin's start.
+
+    Bin i lasts from i to i + 1 times `bin_s`; its sample stands at (i + sample_at) bin_s. A
+    boundary is halfway between the last sample of one segment and the first of the next:
+    (end + 1/2 + sample_at) bin_s. With samples in the middle of bins that is the bin's end; where
+    a bin is a frame, and frames stand at i / rate, sample_at is 0.
+    """
+    return np.asarray((np.asarray(ends) + (0.5 + sample_at)) * bin_s, dtype=float)
 
 
 def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:

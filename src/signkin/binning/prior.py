@@ -44,11 +44,16 @@ class Prior:
 
     def __post_init__(self) -> None:
         """Refuse values that make no density."""
-        deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
-        if not (np.isfinite(deviations).all() and (deviations > 0).all()):
+        deviations = _numbers("noise_sd", self.noise_sd, "a standard deviation above 0")
+        if np.ndim(self.noise_sd):  # lists and arrays, too
+            object.__setattr__(self, "noise_sd", tuple(deviations.tolist()))
+        if not (len(deviations) and np.isfinite(deviations).all() and (deviations > 0).all()):
             raise _error("noise_sd", self.noise_sd, "a standard deviation above 0")
-        if not (np.isfinite(self.concentration) and self.concentration > 0):
+        b = _numbers("concentration", self.concentration, "a number above 0")
+        if not (len(b) == 1 and np.isfinite(b[0]) and b[0] > 0):
             raise _error("concentration", self.concentration, "a number above 0")
+        if self.dof is not None:
+            _numbers("dof", self.dof, "a number, or None for that of dimensions")
         if self.time_unit not in TIME_UNITS:
             raise _error("time_unit", self.time_unit, listed(TIME_UNITS))
         if self.scale not in SCALES:
@@ -78,6 +83,15 @@ class Prior:
         if dt_s is None or not dt_s > 0:
             raise _error("dt_s", dt_s, "the duration of a bin in seconds, for time_unit second")
         return float(dt_s)
+
+
+def _numbers(place: str, found: object, expected: str) -> NDArray[np.float64]:
+    if isinstance(found, (str, bool)):
+        raise _error(place, repr(found), expected)
+    try:
+        return np.atleast_1d(np.asarray(found, dtype=float))
+    except (TypeError, ValueError):
+        raise _error(place, repr(found), expected) from None
 
 
 def _error(place: str, found: object, expected: str) -> SignkinError:
