@@ -19,6 +19,7 @@ KERNELS = (
     "band",
     "best_path",
     "counts",
+    "exact",
     "hit_rate",
     "jit",
     "lanes",
@@ -55,6 +56,7 @@ def compile_kernels() -> None:
     prior = Prior(noise_sd=1.0)
     for bins, longest in ((12, None), (EVERY_COUNT_UP_TO + 1, None), (EVERY_COUNT_UP_TO + 1, 20)):
         x = rng.normal(size=(bins, 2))
-        fit(x, (0, 1), prior, max_segment_bins=longest).map_trajectory(1)
+        for far in (0.0, 1e9):  # with 16 digits, and with 32
+            fit(x + far, (0, 1), prior, max_segment_bins=longest).map_trajectory(1)
     match([0.1], [0.1])
     chance_line([[0.5]], [1.0], 0, [1.0], draws=1)

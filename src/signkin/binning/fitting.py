@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning.all_counts import counted, in_band, log_sum
-from signkin.binning.evidence import by_order, by_segment, expect, whitened_by
+from signkin.binning.evidence import Engine
 from signkin.binning.posterior import Posterior
-from signkin.binning.prior import HIGHEST_ORDER, Prior, tables
+from signkin.binning.prior import HIGHEST_ORDER, Prior
 from signkin.binning.segmentation_prior import log_uniform
 from signkin.errors import SignkinError
 
@@ -20,7 +20,6 @@ Floats = NDArray[np.float64]
 
 # Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
 EVERY_COUNT_UP_TO = 256
-MOST_NOISES = 1e30  # products of squares overflow above
 
 
 def fit(
@@ -54,35 +53,24 @@ def fit(
     if dt_s is not None:
         dt_s = _positive(dt_s, "dt_s", name)
     x, wanted = _checked(X, orders, name)
-    bins, dims = x.shape
+    bins = len(x)
     longest = bins
     if max_segment_bins is not None:
         longest = min(_whole(max_segment_bins, "max_segment_bins", 1, name), bins)
     if max_count is not None:
         max_count = _whole(max_count, "max_count", 0, name)
-    n_orders = max(wanted) + 1
     try:
-        made = tables(prior, bins, longest, dims, n_orders, dt_s)
+        engine = Engine(x, prior, longest, max(wanted) + 1, dt_s)
     except SignkinError as error:
         raise error.at(file=name) from error
-    whitened = whitened_by(x, prior)
-    if not np.abs(whitened).max() < MOST_NOISES:
-        raise SignkinError(
-            f"positions up to {np.abs(whitened).max():.1e} times the prior's noise",
-            file=name,
-            expected=f"less than {MOST_NOISES:.0e}",
-            todo="Check the unit of the data against that of noise_sd.",
-        )
     every = max_count is not None or bins <= EVERY_COUNT_UP_TO
     if every:
-        evidence = by_segment(whitened, bins, made, longest)
-        found = counted(evidence, wanted, bins, longest, max_count)
+        found = counted(engine.by_segment(), wanted, bins, longest, max_count)
     else:
-        found = in_band(by_order(whitened, bins, made, longest), wanted, bins, longest)
+        found = in_band(engine.by_order(), wanted, bins, longest)
     mean = noise = None
     if expectations:
-        inverse_scale = prior.inverse_scale(dims)
-        mean, noise = expect(whitened, bins, made, found.segments, wanted, inverse_scale)
+        mean, noise = engine.expect(found.segments, wanted)
     return Posterior(
         x=x,
         prior=prior,
@@ -94,6 +82,7 @@ def fit(
         log_evidence=found.log_evidence,
         order_probability=np.exp(found.log_evidence - log_sum(found.log_evidence)),
         cut_mass=found.cut_mass,
+        exact=engine.exact,
         _count_probability=found.probability,
         _boundary=found.boundary,
         _mean=mean,
@@ -142,9 +131,8 @@ def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None
     """
     prior = _a_prior(prior, "trajectory")
     x, _ = _checked(X, [order], "trajectory", least_bins=1)
-    bins, dims = x.shape
-    made = tables(prior, bins, bins, dims, order + 1, dt_s)
-    by_length = by_order(whitened_by(x, prior), bins, made, bins)[order]
+    bins = len(x)
+    by_length = Engine(x, prior, bins, order + 1, dt_s).by_order()[order]
     out = np.full((bins, bins), -np.inf)
     for i in range(bins):
         out[i, i:] = by_length[i, : bins - i]

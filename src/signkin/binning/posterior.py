@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning import segmentation
-from signkin.binning.evidence import by_order, expect, whitened_by
-from signkin.binning.prior import Prior, tables
+from signkin.binning.evidence import Engine
+from signkin.binning.prior import Prior
 from signkin.errors import SignkinError, listed
 
 Floats = NDArray[np.float64]
@@ -37,7 +37,8 @@ class Posterior:
     ln P(D | M, S) for M = 0, 1, ... inner boundaries. log_evidence: (orders,), ln P(D | S).
     order_probability: (orders,), P(S | D). cut_mass: (orders,), a bound on the share of P(M | D)
     beyond the counts that were worked out. dt_s: duration of a bin, if told. sample_at: where in
-    its bin a sample stands, as a share of the bin.
+    its bin a sample stands, as a share of the bin. exact: whether evidences were worked out with
+    32 digits, as data that are huge beside their noise want (exact.py).
     """
 
     x: Floats
@@ -50,6 +51,7 @@ class Posterior:
     log_evidence: Floats
     order_probability: Floats
     cut_mass: Floats
+    exact: bool
     _count_probability: Floats
     _boundary: Floats
     _mean: Floats | None
@@ -161,15 +163,13 @@ class Posterior:
     def map_trajectory(self, order: int, count: int | None = None) -> Floats:
         """Return the mean of the most probable segmentation, (T, L): exactly piecewise."""
         ends = [*self.map_segmentation(order, count), len(self.x) - 1]
-        bins, dims = self.x.shape
+        bins = len(self.x)
         chosen = np.zeros((order + 1, bins, self.max_segment_bins))
         start = 0
         for end in ends:
             chosen[order, start, end - start] = 1.0
             start = int(end) + 1
-        made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
-        whitened = whitened_by(self.x, self.prior)
-        means, _ = expect(whitened, bins, made, chosen, (order,), self.prior.inverse_scale(dims))
+        means, _ = self._engine(order).expect(chosen, (order,))
         return means[0]
 
     def noise_covariance(self, order: int) -> Floats:
@@ -187,10 +187,12 @@ class Posterior:
         return values
 
     def _evidence(self, order: int) -> Floats:
-        bins, dims = self.x.shape
-        made = tables(self.prior, bins, self.max_segment_bins, dims, order + 1, self.dt_s)
-        whitened = whitened_by(self.x, self.prior)
-        return by_order(whitened, bins, made, self.max_segment_bins)[order]
+        return self._engine(order).by_order()[order]
+
+    def _engine(self, order: int) -> Engine:
+        return Engine(
+            self.x, self.prior, self.max_segment_bins, order + 1, self.dt_s, exact=self.exact
+        )
 
 
 def boundary_times(

@@ -11,6 +11,7 @@ triangular form: they are made once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from functools import lru_cache
 
 import numpy as np
@@ -184,6 +185,28 @@ def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
         np.ascontiguousarray(powers, dtype=np.float64),
         np.asarray(log_ratio, dtype=np.float64),
     )
+
+
+@lru_cache(maxsize=16)
+def exact_rotations(longest: int, n_orders: int, b: float, step: float) -> NDArray[np.float64]:
+    """Return the rotations with 32 digits: (4, N, D), cosines, sines, and second halves of both."""
+    out = np.empty((4, longest, n_orders))
+    with localcontext() as context:
+        context.prec = 50
+        root_b = Decimal(b).sqrt()
+        factor = [[root_b * (i == j) for j in range(n_orders)] for i in range(n_orders)]
+        for n in range(longest):
+            time = Decimal(step) * (n + 1)
+            row = [time**i if i else Decimal(1) for i in range(n_orders)]
+            for d, old in enumerate(factor):
+                size = (old[d] * old[d] + row[d] * row[d]).sqrt()
+                c, s = old[d] / size, row[d] / size
+                for j in range(d, n_orders):
+                    old[j], row[j] = c * old[j] + s * row[j], c * row[j] - s * old[j]
+                for i, exact in enumerate((c, s)):
+                    out[i, n, d] = float(exact)
+                    out[i + 2, n, d] = float(exact - Decimal(float(exact)))
+    return out
 
 
 def _inverse(upper: NDArray[np.longdouble]) -> NDArray[np.longdouble]:

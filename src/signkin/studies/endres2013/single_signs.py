@@ -42,8 +42,9 @@ SPLINE_ORDER = 5
 class Trajectory:
     """A trajectory in bins, as binning takes it.
 
-    dataset: recorded or powerlaw. x: (T, L) positions at the middle of each bin, in the
-    corpus's unit. bin_s: duration of a bin. boundaries_s: known boundaries, in s from the start.
+    dataset: recorded or powerlaw. x: (T, L) positions, one a bin, in the corpus's unit. bin_s:
+    duration of a bin. boundaries_s: known boundaries, in s from the start. sample_at: where in
+    its bin a position is (`in_bins`).
     """
 
     recording: str
@@ -52,6 +53,7 @@ class Trajectory:
     x: Floats
     bin_s: float
     boundaries_s: Floats
+    sample_at: float = 0.5
 
     @property
     def duration_s(self) -> float:
@@ -178,7 +180,8 @@ def recorded(wrist: Wrist, bins: int) -> Trajectory:
             expected="2 or more",
         )
     x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
-    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0))
+    at = sample_at(len(path), len(x))
+    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0), at)
 
 
 def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
@@ -196,6 +199,14 @@ def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
     return np.asarray(curve(middle)), bin_s
 
 
+def sample_at(frames: int, bins: int) -> float:
+    """Return where in its bin a position of `in_bins` is, as a share of the bin.
+
+    In the middle; at the start where each frame is a bin: frame i stands at i / rate.
+    """
+    return 0.0 if bins == frames else 0.5
+
+
 def ground_truth(
     corpus: str, wrist: Wrist, settings: WarpSettings, seed: int
 ) -> GroundTruth | LeftOut:
@@ -209,7 +220,8 @@ def ground_truth(
 
 def _warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:
     x, bin_s = in_bins(truth.positions, truth.rate_hz, min(bins, len(truth.positions)))
-    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s)
+    at = sample_at(len(truth.positions), len(x))
+    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s, at)
 
 
 def _segments(truth: GroundTruth, unit: str) -> Iterable[dict[str, Any]]:
@@ -292,6 +304,7 @@ def write_trajectories(path: str | Path, trajectories: Sequence[Trajectory]) -> 
             "dataset": pa.array([t.dataset for t in trajectories], pa.string()),
             "dimensions": pa.array([t.x.shape[1] for t in trajectories], pa.int32()),
             "bin_s": pa.array([t.bin_s for t in trajectories], pa.float64()),
+            "sample_at": pa.array([t.sample_at for t in trajectories], pa.float64()),
             "x": pa.array([t.x.ravel() for t in trajectories], pa.list_(pa.float64())),
             "boundaries_s": pa.array(
                 [np.asarray(t.boundaries_s) for t in trajectories], pa.list_(pa.float64())
@@ -310,7 +323,7 @@ def read_trajectories(paths: Iterable[str | Path]) -> list[Trajectory]:
             out.append(
                 Trajectory(
                     row["recording"], row["hand"], row["dataset"], x, row["bin_s"],
-                    np.asarray(row["boundaries_s"], dtype=float),
+                    np.asarray(row["boundaries_s"], dtype=float), row["sample_at"],
                 )
             )  # fmt: skip
     return out
