@@ -95,6 +95,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with the process, so a killed run can simply go on.
     """
+    from signkin.binning.compiled import forget_stale_kernels
     from signkin.checkout import workflow_home
     from signkin.errors import SignkinError
     from signkin.lock import held
@@ -119,6 +120,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         if not alone:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
+        forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
