@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,6 +20,7 @@ from signkin.recording import Recording
 from signkin.stages.ingest import lead
 from signkin.stages.wrists import in_bins, ready_wrist
 from signkin.studies.endres2013.posteriors import boundary_times, explained_variance, prior_of
+from signkin.studies.one_wrist.settings import SeriesSettings
 
 Floats = NDArray[np.float64]
 
@@ -43,12 +44,11 @@ class LongSeries:
 
 
 def long_series(
-    corpus: Corpus, recordings: Iterable[Recording], settings: Mapping[str, Any], workers: int
+    corpus: Corpus, recordings: Iterable[Recording], settings: SeriesSettings, workers: int
 ) -> LongSeries:
-    """Bin both wrists of each recording. settings: the sections `kinematics` and `binning`."""
+    """Bin both wrists of each recording."""
     out = LongSeries()
-    own = settings["binning"]["continuous"]
-    order = int(own["order"])
+    order = settings.continuous.order
     jobs: list[tuple[str, str, Floats, float]] = []
     for recording in recordings:
         for hand in HANDS:
@@ -57,11 +57,11 @@ def long_series(
                 jobs.append((recording.name, hand, *_wrist_in_bins(recording, hand, settings)))
             except SignkinError as error:
                 out.left_out.append({**start, "reason": str(error)})
-    for longest, some in _by_longest(jobs, own["longest_segment_s"]).items():
+    for longest, some in _by_longest(jobs, settings.continuous.longest_segment_s).items():
         fits = fit_many(
             [x for _, _, x, _ in some],
             [order],
-            [prior_of(settings["binning"]["prior"], corpus.noise_sd, x) for _, _, x, _ in some],
+            [prior_of(settings.prior, corpus.noise_sd, x) for _, _, x, _ in some],
             [bin_s for _, _, _, bin_s in some],
             workers=workers,
             names=[f"recording {name}, {hand} wrist" for name, hand, _, _ in some],
@@ -76,21 +76,16 @@ def long_series(
 
 
 def _wrist_in_bins(
-    recording: Recording, hand: str, settings: Mapping[str, Any]
+    recording: Recording, hand: str, settings: SeriesSettings
 ) -> tuple[Floats, float]:
-    wrist = ready_wrist(
-        recording,
-        hand,
-        settings["kinematics"]["longest_gap_s"],
-        settings["binning"]["lowpass"],
-    )
-    own, frames, rate = settings["binning"]["continuous"], len(wrist.path), wrist.rate_hz
-    bins = min(frames, round((frames - 1) / rate / own["bin_s"]))
-    if bins <= own["order"]:
+    wrist = ready_wrist(recording, hand, settings.longest_gap_s, settings.lowpass)
+    frames, rate, order = len(wrist.path), wrist.rate_hz, settings.continuous.order
+    bins = min(frames, round((frames - 1) / rate / settings.continuous.bin_s))
+    if bins <= order:
         raise SignkinError(
             f"{bins} bins",
             file=f"recording {recording.name}",
-            expected=f"more than the order, {own['order']}",
+            expected=f"more than the order, {order}",
         )
     x, bin_s = in_bins(wrist.path, rate, bins)
     return x - x.mean(axis=0), bin_s
