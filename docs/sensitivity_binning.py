@@ -8,12 +8,10 @@ Markdown tables; takes about four minutes on one core. 40 recordings of each cor
 
 from __future__ import annotations
 
-import copy
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,6 +22,7 @@ from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
+from signkin.settings import Settings, load_settings
 from signkin.stages.ingest import ingest
 from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
@@ -34,6 +33,7 @@ from signkin.studies.endres2013.posteriors import (
     chosen,
     prior_of,
 )
+from signkin.studies.endres2013.settings import CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
@@ -42,6 +42,7 @@ from signkin.studies.endres2013.single_signs import (
     single_signs,
 )
 from signkin.studies.one_wrist.long_series import long_series
+from signkin.studies.one_wrist.settings import SeriesSettings
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
@@ -49,7 +50,6 @@ CONTINUOUS = ("lsf-sim", "dgs-1984189", "libras")
 MOST = 40
 ORDERS = tuple(range(8))
 Ints = NDArray[np.int64]
-Settings = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -93,16 +93,16 @@ VARIANTS = {
 }
 
 
-def changed(config: Settings, changes: Mapping[str, object]) -> dict[str, Any]:
-    """Return the configuration with keys below `binning` changed."""
-    out: dict[str, Any] = copy.deepcopy(dict(config))
+def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
+    """Return the settings with keys below `binning` changed."""
+    out = settings.model_dump(exclude={"corpora"})
     for key, value in changes.items():
         *above, last = key.split(".")
         at = out["binning"]
         for name in above:
             at = at[name]
         at[last] = value
-    return out
+    return load_settings(out)
 
 
 def takes(name: str, results: Path, data: Path) -> Takes | None:
@@ -116,21 +116,23 @@ def takes(name: str, results: Path, data: Path) -> Takes | None:
     return Takes(corpus, ingest(corpus, folder, entries).recordings)
 
 
-def cut(of: Takes, config: Settings, variant: Variant) -> list[Trajectory]:
+def cut(of: Takes, settings: Settings, variant: Variant) -> list[Trajectory]:
     """Return the trajectories, those with more bins than the highest order."""
     recordings = [replace(r, rate_hz=r.rate_hz * variant.rate) for r in of.recordings]
     if variant.whole:
-        config = {**config, "powerlaw": {**config["powerlaw"], "active_share": 0.0}}
-    found = single_signs(of.corpus, recordings, config, int(config["seed"])).trajectories
+        law = settings.powerlaw.model_copy(update={"active_share": 0.0})
+        settings = settings.model_copy(update={"powerlaw": law})
+    own = CutSettings.of(settings)
+    found = single_signs(of.corpus, recordings, own, settings.seed).trajectories
     return [t for t in found if len(t.x) > max(ORDERS)]
 
 
 def binned(
-    of: Takes, trajectories: Sequence[Trajectory], config: Settings, variant: Variant
+    of: Takes, trajectories: Sequence[Trajectory], settings: Settings, variant: Variant
 ) -> list[Posterior]:
     """Bin trajectories with the settings of a variant."""
     x = [t.x - t.x.mean(axis=0) + variant.offset_m for t in trajectories]
-    prior = config["binning"]["prior"]
+    prior = settings.binning.prior
     return fit_many(
         x, ORDERS, [prior_of(prior, of.corpus.noise_sd * variant.noise, one) for one in x],
         [t.bin_s for t in trajectories], max_count=variant.max_count, expectations=False,
@@ -179,16 +181,16 @@ def single_bins(posterior: Posterior, order: int) -> Ints:
     return np.sort(best[: posterior.map_count(order)])
 
 
-def choices(of: Takes, config: Settings) -> None:
+def choices(of: Takes, settings: Settings) -> None:
     """Print what each variant does to a corpus."""
     print(f"\n### {of.corpus.name}: M at orders 0, 3, 7; order posterior; ground truth\n")
     print("| | M | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s | left hand |")
     print("|---" * 7 + "|")
     for label, variant in VARIANTS.items():
-        settings = changed(config, variant.config)
-        trajectories = cut(of, settings, variant)
-        fits = binned(of, trajectories, settings, variant)
-        window = settings["binning"]["window_s"]
+        own = changed(settings, variant.config)
+        trajectories = cut(of, own, variant)
+        fits = binned(of, trajectories, own, variant)
+        window = own.binning.hit_window_s
         cells = []
         for kind in (RECORDED, POWERLAW):
             here = [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == kind]
@@ -207,12 +209,12 @@ def choices(of: Takes, config: Settings) -> None:
         )
 
 
-def picking(of: Takes, config: Settings) -> None:
+def picking(of: Takes, settings: Settings) -> None:
     """Print hits on ground truth by the way in which boundaries are taken from the posterior."""
     shipped = VARIANTS["as shipped"]
-    trajectories = cut(of, config, shipped)
-    fits = binned(of, trajectories, config, shipped)
-    window = config["binning"]["window_s"]
+    trajectories = cut(of, settings, shipped)
+    fits = binned(of, trajectories, settings, shipped)
+    window = settings.binning.hit_window_s
     ways: dict[str, Callable[[Posterior, int], Ints]] = {
         "local maxima, 3 bins cleared": maxima,
         "local maxima": single_bins,
@@ -227,7 +229,7 @@ def picking(of: Takes, config: Settings) -> None:
         print(f"| {label} | " + " | ".join(cells) + " |")
 
 
-def recovery(of: Takes, config: Settings) -> None:
+def recovery(of: Takes, settings: Settings) -> None:
     """Print P(true order), hit rate and false positives a second of fitted trajectories."""
     for kind in ("fitted", FITTED_MAP):
         print(f"\n### {of.corpus.name}, {kind}: P(true order) / hit rate / false pos. a second\n")
@@ -236,16 +238,16 @@ def recovery(of: Takes, config: Settings) -> None:
         for b in (0.1, 0.001):
             for share in (1.0, 0.1, 0.0125):
                 changes = {"prior.concentration": b, "recovery_noise": share}
-                cells = recovered(of, changed(config, changes), kind)
+                cells = recovered(of, changed(settings, changes), kind)
                 print(f"| {b:g} | {share:g} | " + " | ".join(cells) + " |")
 
 
 def recovered(
-    of: Takes, config: Settings, kind: str, orders: Sequence[int] = ORDERS[1:]
+    of: Takes, settings: Settings, kind: str, orders: Sequence[int] = ORDERS[1:]
 ) -> list[str]:
     """Return a cell for each true order."""
-    runs = Study(of.corpus, config["binning"])
-    trajectories = cut(of, config, VARIANTS["as shipped"])
+    runs = Study(of.corpus, FitSettings.of(settings))
+    trajectories = cut(of, settings, VARIANTS["as shipped"])
     fits = runs.run([Data(t, t.dataset, t.x, None, t.boundaries_s) for t in trajectories])
     cells = []
     for order in orders:
@@ -260,7 +262,7 @@ def recovered(
         probability = np.mean([f.posterior.order_probability[order] for f in found])
         told = [
             hit_rate(
-                f.boundaries_s(order), f.data.truth_s, config["binning"]["window_s"],
+                f.boundaries_s(order), f.data.truth_s, settings.binning.hit_window_s,
                 duration_s=f.data.source.duration_s,
             )
             for f in found
@@ -272,7 +274,7 @@ def recovered(
     return cells
 
 
-def nearest(of: Takes, config: Settings) -> None:
+def nearest(of: Takes, settings: Settings) -> None:
     """Print the printed prior with many degrees of freedom: what comes nearest to the paper."""
     print(f"\n### {of.corpus.name}: the printed prior (data's variances, b = 0.1, T = 100, bins)\n")
     print("| dof | M at 0, 3, 7 | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s "
@@ -282,9 +284,9 @@ def nearest(of: Takes, config: Settings) -> None:
         changes = {
             "prior.noise": "data", "prior.scale": "plain", "prior.dof": dof, "recovery_noise": 1.0,
         }  # fmt: skip
-        settings = changed(config, changes)
-        trajectories = cut(of, settings, VARIANTS["as shipped"])
-        fits = binned(of, trajectories, settings, VARIANTS["as shipped"])
+        own = changed(settings, changes)
+        trajectories = cut(of, own, VARIANTS["as shipped"])
+        fits = binned(of, trajectories, own, VARIANTS["as shipped"])
         mean = {
             kind: np.mean(
                 [
@@ -300,11 +302,11 @@ def nearest(of: Takes, config: Settings) -> None:
         counts = ", ".join(
             f"{np.mean([f.map_count(order) for f in recorded]):.1f}" for order in (0, 3, 7)
         )
-        again = [recovered(of, settings, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
+        again = [recovered(of, own, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
         print(
             f"| {dof} | {counts} | {int(np.argmax(mean[RECORDED]))} "
             f"| {mean[RECORDED][3:6].sum():.2f} | {int(np.argmax(mean[POWERLAW]))} "
-            f"| {rates(trajectories, fits, 3, maxima, settings['binning']['window_s'])} "
+            f"| {rates(trajectories, fits, 3, maxima, own.binning.hit_window_s)} "
             f"| {again[0]} | {again[1]} |"
         )
 
@@ -327,7 +329,7 @@ def many_boundaries(results: Path) -> None:
         print(f"| {name} | {n} | {bins:g} | " + " | ".join(cells) + " |")
 
 
-def long_ones(of: Takes, config: Settings) -> None:
+def long_ones(of: Takes, settings: Settings) -> None:
     """Print what the settings of long series do."""
     variants: dict[str, dict[str, object]] = {
         "as shipped": {},
@@ -342,7 +344,9 @@ def long_ones(of: Takes, config: Settings) -> None:
     print("| | bins | right | left | cut mass | explained variance, least |")
     print("|---" * 6 + "|")
     for label, changes in variants.items():
-        found = long_series(of.corpus, of.recordings, changed(config, changes), 1)
+        found = long_series(
+            of.corpus, of.recordings, SeriesSettings.of(changed(settings, changes)), 1
+        )
         rows = found.table("wrist_posteriors", of.corpus.unit)
         by_hand = rows.groupby("hand")["boundaries_per_s"].mean()
         print(
@@ -351,11 +355,11 @@ def long_ones(of: Takes, config: Settings) -> None:
         )
 
 
-def splines(of: Takes, config: Settings) -> None:
+def splines(of: Takes, settings: Settings) -> None:
     """Print how far a path at the middle of bins is from straight lines between its samples."""
-    apart, fewer, bins = [], 0, int(config["binning"]["bins"])
+    apart, fewer, bins = [], 0, settings.binning.bins
     for recording in of.recordings:
-        movement = movement_of(recording, config)
+        movement = movement_of(recording, CutSettings.of(settings))
         path, wrist = movement.path, movement.wrist
         fewer += len(path) <= bins
         x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
@@ -371,21 +375,21 @@ def splines(of: Takes, config: Settings) -> None:
 
 def main(results: Path, data: Path) -> None:
     """Print all tables."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    settings = load_settings(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")))
     single = [of for name in SINGLE if (of := takes(name, results, data)) is not None]
     many_boundaries(results)
     print("\n### Recordings with as many bins as samples; spline against straight lines\n")
     print("| | as many | largest distance |\n|---|---|---|")
     for of in single:
-        splines(of, config)
+        splines(of, settings)
     for of in single:
-        choices(of, config)
-        picking(of, config)
-        nearest(of, config)
-    recovery(single[0], config)
+        choices(of, settings)
+        picking(of, settings)
+        nearest(of, settings)
+    recovery(single[0], settings)
     for name in CONTINUOUS:
         if (of := takes(name, results, data)) is not None:
-            long_ones(of, config)
+            long_ones(of, settings)
 
 
 if __name__ == "__main__":

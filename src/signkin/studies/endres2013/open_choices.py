@@ -1,4 +1,4 @@
-"""What the paper does not print, varied: the prior and the number of bins (BINNING.md's question).
+"""What the paper does not print, varied: the prior and the number of bins.
 
 Every combination of degrees of freedom, noise and scale, concentration, time unit
 and bins in config.yaml, on some recordings of a corpus.

@@ -115,9 +115,8 @@ def known_boundaries(trajectories: Sequence[Trajectory], fitted: pd.DataFrame) -
 
 
 def chance_of(
-    part: pd.DataFrame, truths: Sequence[Any], durations: Sequence[float],
-    settings: Binning, rng: np.random.Generator,
-) -> ChanceLine:  # fmt: skip
+    truths: Sequence[Any], durations: Sequence[float], settings: Binning, rng: np.random.Generator
+) -> ChanceLine:
     """Return the line of no discrimination of a group."""
     draws = int(np.clip(round(settings.chance_trajectories / len(durations)), 20, 400))
     return chance_line(truths, durations, rng, RATES_PER_S, settings.hit_window_s, draws)
@@ -141,7 +140,7 @@ def hit_rates(
         line = None
         if any(len(times) for times in known):
             rng = stream(seed, corpus, "chance", *name)
-            line = chance_of(part, known, durations, settings, rng)
+            line = chance_of(known, durations, settings, rng)
             chance_rows += [{"corpus": corpus, **key, **row} for row in _line_rows(line)]
         for order, of_order in rates.items():
             rng = stream(seed, corpus, "bootstrap", *name, str(order))
