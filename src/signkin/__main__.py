@@ -91,10 +91,13 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.checkout import workflow_home
     from signkin.errors import SignkinError
     from signkin.lock import held
+    from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
     try:
         home = workflow_home()
+        if (folder / "config.yaml").is_file():
+            read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",

@@ -22,6 +22,8 @@ import yaml
 
 from signkin import joints as joint_names
 from signkin.errors import SignkinError, listed
+from signkin.settings.checks import checked
+from signkin.settings.corpus import CorpusDescription
 from signkin.yaml_file import read_yaml
 
 SCHEMAS = files("signkin") / "schemas"
@@ -161,13 +163,19 @@ def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corp
 
 def load_corpus(folder: Path) -> Corpus:
     """Load and check one corpus folder."""
-    settings = read_yaml(folder / "corpus.yaml", GUIDE)
-    check_schema(settings, "corpus", folder / "corpus.yaml")
+    settings = _given(read_yaml(folder / "corpus.yaml", GUIDE))
+    checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     return Corpus(folder.name, folder, settings, entries, signs)
+
+
+def _given(content: dict[str, Any]) -> dict[str, Any]:
+    """Return a mapping without the keys that are null, which say the same as none."""
+    inner = {k: _given(v) if isinstance(v, dict) else v for k, v in content.items()}
+    return {k: v for k, v in inner.items() if v is not None}
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:

@@ -3,16 +3,17 @@
 import sys
 from pathlib import Path
 
-from signkin.corpus import SCHEMAS
-from signkin.settings.text import config_text, page_text, schema_text
+from signkin.settings.text import config_text, corpus_schema_text, page_text, schema_text
 
 
 def generated(root: Path) -> dict[Path, str]:
     """Return the generated files of a checkout and their content."""
+    schemas = root / "src" / "signkin" / "schemas"
     return {
         root / "config.yaml": config_text(),
         root / "docs" / "configuration.md": page_text(),
-        SCHEMAS / "config.schema.yaml": schema_text(),
+        schemas / "config.schema.yaml": schema_text(),
+        schemas / "corpus.schema.yaml": corpus_schema_text(),
     }
 
 

@@ -10,6 +10,7 @@ import yaml
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from signkin.settings.corpus import CorpusDescription
 from signkin.settings.sections import Settings
 
 WIDTH = 100
@@ -86,9 +87,18 @@ def yaml_value(value: Any) -> str:
 
 def schema_text() -> str:
     """Return the JSON Schema of config.yaml, as YAML, for editors."""
-    content = Settings.model_json_schema()
+    return _schema(Settings, "config.yaml")
+
+
+def corpus_schema_text() -> str:
+    """Return the JSON Schema of corpus.yaml, as YAML, for editors."""
+    return _schema(CorpusDescription, "corpus.yaml, one corpus")
+
+
+def _schema(model: type[BaseModel], title: str) -> str:
     content = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema", **content, "title": "config.yaml"
+        "$schema": "https://json-schema.org/draft/2020-12/schema", **model.model_json_schema(),
+        "title": title,
     }  # fmt: skip
     head = "# Made from the models in src/signkin/settings by `make settings`.\n"
     return head + yaml.safe_dump(content, sort_keys=False, width=WIDTH, allow_unicode=True)
