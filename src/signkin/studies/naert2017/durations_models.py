@@ -178,10 +178,11 @@ def _errors(
 ) -> dict[str, float]:
     residual = found - learn.data.duration_s
     units, _ = association.resampled_units(recordings, chosen["bootstrap_recordings"])
-    absolute = np.abs(residual)
+    absolute, too_long = np.abs(residual), _too_long(residual)
+    parts = (absolute, baseline - absolute, residual, too_long)
 
     def means(rows: np.ndarray) -> np.ndarray:
-        return np.array([absolute[rows].mean(), (baseline - absolute)[rows].mean()])
+        return np.array([part[rows].mean() for part in parts])
 
     low, high = association.bootstrap(means, units, chosen["draws"], chosen["alpha"], rng)
     measured = {
@@ -193,11 +194,21 @@ def _errors(
         "gain_high_s": high[1],
         "rmse_s": np.sqrt(np.mean(residual**2)),
         "bias_s": residual.mean(),
+        "bias_low_s": low[2],
+        "bias_high_s": high[2],
+        "share_too_long": too_long.mean(),
+        "share_too_long_low": low[3],
+        "share_too_long_high": high[3],
         "longest_s": found.max(),
         "share_above_bound": (found > chosen["highest_s"] + 1e-12).mean(),
     }
     # A bias of least squares is 0 but for rounding.
     return {name: round(float(value), 12) for name, value in measured.items()}
+
+
+def _too_long(residual: np.ndarray) -> np.ndarray:
+    """Return 1 for a prediction that is too long, 0 for one too short, 0.5 for an exact one."""
+    return 0.5 + 0.5 * np.sign(np.round(residual, 12))
 
 
 def _predictions(rows: pd.DataFrame, name: str, found: np.ndarray) -> pd.DataFrame:
