@@ -294,6 +294,12 @@ def test_models_that_a_corpus_does_not_allow_say_why(config):
     notes = found.set_index(["model", "evaluation"])["note"]
     assert "no orientations" in notes["SURFACE", "leave_one_out"]
     assert "one recording only" in notes["LINEAR", "leave_one_recording_out"]
+    assert notes["SIMPLE", "in_sample"].endswith("no geodesic distance: its Euclidean part alone")
+    _, predicted = durations_models.models("c", learn, config, CONSTANTS, 1)
+    simple = predicted.loc[predicted["model"] == "SIMPLE", "predicted_s"].to_numpy()
+    # Eq. 3 with alpha 1; 0.1 m over m/s is the same time.
+    linear = learn.data.linear_speed.sum(axis=1)
+    assert simple == pytest.approx(2 * learn.data.euclidean / linear)
     assert np.isfinite(
         found.set_index(["model", "evaluation"])["mean_error_s"]["LINEAR", "in_sample"]
     )
