@@ -14,16 +14,13 @@ from signkin.errors import SignkinError
 from signkin.io.bvh import channel_values, forward_kinematics, parse_bvh
 from signkin.io.wide_csv import column_map
 from signkin.stages.ingest import ingest
-from signkin.studies.naert2017.synthesis.comparison import comparison, summary
-from signkin.studies.naert2017.synthesis.utterance import (
-    distance_scale,
-    make_utterance,
-    retrieved,
-    sign_database,
-    timing,
-    whole_takes,
-    write_utterance,
-)
+from signkin.studies.naert2017.synthesis.comparison import comparison
+from signkin.studies.naert2017.synthesis.database import sign_database
+from signkin.studies.naert2017.synthesis.duration_models import timing
+from signkin.studies.naert2017.synthesis.retrieval import distance_scale, retrieved
+from signkin.studies.naert2017.synthesis.summary import summary
+from signkin.studies.naert2017.synthesis.utterance import make_utterance
+from signkin.studies.naert2017.synthesis.utterance_files import whole_takes, write_utterance
 
 PRINTED = np.array([0.148777, 0.663958, 0.275229])
 

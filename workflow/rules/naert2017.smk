@@ -1,5 +1,8 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
 
+NAERT = PLAN.papers / "naert2017"
+NAERT_FIGURES = ("figures",)  # groups of its exhibits.yaml: what a rule draws
+SYNTHESIS_FIGURES = ("composition", "truth")
 SYNTHESIS = {
     k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
 }
@@ -34,8 +37,8 @@ rule transitions:
         description=lambda w: PLAN.description(w.corpus),
     output:
         sign_types="<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
-        transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
-        speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
+        raw_transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
+        transition_speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
     log:
         "<logs>/naert2017/{corpus}/{shard}/transitions.log",
     params:
@@ -49,25 +52,13 @@ rule transitions:
 rule naert_tables:
     """Table 1, Table 2, quality of the refinement, for a whole corpus."""
     input:
-        boundaries=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/boundaries.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        sign_types=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        transitions=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        boundaries=of_shards(rules.refine.output.boundaries),
+        sign_types=of_shards(rules.transitions.output.sign_types),
+        transitions=of_shards(rules.transitions.output.raw_transitions),
         about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         minima=rules.gather.output.minima,
-        published=PLAN.papers / "naert2017" / "table2.csv",
+        published=NAERT / "table2.csv",
     output:
         boundaries="<results>/naert2017/{corpus}/boundaries.csv",
         sign_types="<results>/naert2017/{corpus}/sign_types.csv",
@@ -96,25 +87,11 @@ rule naert_figures:
         sign_types=rules.naert_tables.output.sign_types,
         transitions=rules.naert_tables.output.transitions,
         minima=rules.gather.output.minima,
-        frames=lambda w: collect(
-            "<results>/{corpus}/kinematics/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        published=PLAN.papers / "naert2017" / "table2.csv",
+        frames=of_shards(rules.kinematics.output.frames),
+        published=NAERT / "table2.csv",
+        exhibits=NAERT / "exhibits.yaml",
     output:
-        svg=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.svg",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
-        ),
-        pdf=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.pdf",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
-        ),
-        csv=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.csv",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
-        ),
+        figures=figure_files("naert2017", *NAERT_FIGURES),
         diamond="<results>/naert2017/{corpus}/diamond.csv",
         captions="<results>/naert2017/{corpus}/captions.json",
     log:
@@ -122,6 +99,7 @@ rule naert_figures:
     params:
         code=PLAN.digest("naert2017/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        groups=NAERT_FIGURES,
         settings={k: config[k] for k in ("kinematics", "transitions")},
     script:
         "../scripts/naert2017/figures.py"
@@ -151,7 +129,7 @@ rule simulation_check:
         transitions=rules.naert_tables.output.transitions,
         truth="<results>/{corpus}/simulated/truth.csv",
         design="<results>/{corpus}/simulated/design.csv",
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
     output:
         truth_error="<results>/naert2017/{corpus}/truth_error.csv",
         surface="<results>/naert2017/{corpus}/surface.csv",
@@ -178,17 +156,13 @@ rule naert2017:
 rule synthesis:
     """Every captured transition made anew by each method (5.2)."""
     input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/recordings/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        recordings=of_shards(rules.ingest.output.recordings),
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
     output:
         synthesis="<results>/naert2017/{corpus}/synthesis/synthesis.csv",
-        summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
+        synthesis_summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
     log:
         "<logs>/naert2017/{corpus}/synthesis.log",
     params:
@@ -208,23 +182,18 @@ rule synthesis_figures:
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
+        exhibits=NAERT / "exhibits.yaml",
         synthesis=rules.synthesis.output.synthesis,
     output:
-        multiext(
-            "<results>/naert2017/{corpus}/fig",
-            *[
-                f"{n}.{s}"
-                for n in ("01", "02", "12", "13")
-                for s in ("svg", "pdf", "csv")
-            ],
-        ),
+        figures=figure_files("naert2017", *SYNTHESIS_FIGURES),
         captions="<results>/naert2017/{corpus}/synthesis/captions.json",
     log:
         "<logs>/naert2017/{corpus}/synthesis_figures.log",
     params:
         code=PLAN.digest("naert2017/synthesis_figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        groups=SYNTHESIS_FIGURES,
         settings=SYNTHESIS,
     script:
         "../scripts/naert2017/synthesis_figures.py"
@@ -235,24 +204,14 @@ if PLAN.with_found_signs:
     rule composition_figures:
         """Figures 1, 2 and 13 of a corpus without tags."""
         input:
-            recordings=lambda w: collect(
-                "<results>/{corpus}/recordings/{shard}.parquet",
-                corpus=w.corpus,
-                shard=PLAN.shards(w.corpus),
-            ),
+            recordings=rules.synthesis.input.recordings,
             intervals=rules.gather.output.intervals,
             excluded=rules.gather.output.excluded,
             description=lambda w: PLAN.description(w.corpus),
-            constants=PLAN.papers / "naert2017" / "constants.csv",
+            constants=NAERT / "constants.csv",
+            exhibits=NAERT / "exhibits.yaml",
         output:
-            multiext(
-                "<results>/naert2017/{corpus}/fig",
-                *[
-                    f"{n}.{s}"
-                    for n in ("01", "02", "13")
-                    for s in ("svg", "pdf", "csv")
-                ],
-            ),
+            figures=figure_files("naert2017", "composition"),
             captions="<results>/naert2017/{corpus}/synthesis/captions.json",
         log:
             "<logs>/naert2017/{corpus}/composition_figures.log",
@@ -261,6 +220,7 @@ if PLAN.with_found_signs:
         params:
             code=PLAN.digest("naert2017/synthesis_figures.py"),
             corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+            groups=("composition",),
             settings=SYNTHESIS,
         script:
             "../scripts/naert2017/synthesis_figures.py"
@@ -276,11 +236,11 @@ rule utterances:
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
         data=lambda w: PLAN.corpora_files(w.corpus),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
     output:
         folder=directory("<results>/naert2017/{corpus}/synthesis/utterances"),
-        parts="<results>/naert2017/{corpus}/synthesis/utterances.csv",
-        found="<results>/naert2017/{corpus}/synthesis/found_signs.csv",
+        utterances="<results>/naert2017/{corpus}/synthesis/utterances.csv",
+        found_signs="<results>/naert2017/{corpus}/synthesis/found_signs.csv",
     log:
         "<logs>/naert2017/{corpus}/utterances.log",
     params:
@@ -325,17 +285,13 @@ rule duration_models:
     """SIMPLE, BOUNDED, LINEAR and SURFACE against the truth (5.2)."""
     input:
         transitions=rules.naert_tables.output.transitions,
-        speeds=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        speeds=of_shards(rules.transitions.output.transition_speeds),
+        constants=NAERT / "constants.csv",
     output:
-        speeds="<results>/naert2017/{corpus}/transition_speeds.csv",
-        models="<results>/naert2017/{corpus}/duration_models.csv",
-        coefficients="<results>/naert2017/{corpus}/duration_coefficients.csv",
-        predictions="<results>/naert2017/{corpus}/fig_durations.csv",
+        transition_speeds="<results>/naert2017/{corpus}/transition_speeds.csv",
+        duration_models="<results>/naert2017/{corpus}/duration_models.csv",
+        duration_coefficients="<results>/naert2017/{corpus}/duration_coefficients.csv",
+        duration_predictions="<results>/naert2017/{corpus}/fig_durations.csv",
         figure=multiext("<results>/naert2017/{corpus}/fig_durations", ".svg", ".pdf"),
     log:
         "<logs>/naert2017/{corpus}/duration_models.log",
@@ -352,7 +308,7 @@ rule duration_surface:
     """The surface of duration over both distances (Fig. 11)."""
     input:
         transitions=rules.naert_tables.output.transitions,
-        speeds=rules.duration_models.output.speeds,
+        speeds=rules.duration_models.output.transition_speeds,
     output:
         svg="<results>/naert2017/{corpus}/fig11.svg",
         pdf="<results>/naert2017/{corpus}/fig11.pdf",
@@ -378,16 +334,12 @@ rule naert2017_durations:
 rule multiverse:
     """Claims of Naert et al. under every combination of open choices."""
     input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/recordings/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        recordings=of_shards(rules.ingest.output.recordings),
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         transitions=rules.naert_tables.output.transitions,
     output:
-        table="<results>/naert2017/{corpus}/multiverse.csv",
+        multiverse="<results>/naert2017/{corpus}/multiverse.csv",
     log:
         "<logs>/naert2017/{corpus}/multiverse.log",
     params:

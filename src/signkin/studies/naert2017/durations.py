@@ -27,7 +27,8 @@ from signkin.errors import SignkinError
 from signkin.statistics import anova, association, equivalence, mixed, posthoc, power
 from signkin.statistics.descriptive import hand_change, outliers
 from signkin.statistics.findings import Finding, grouped, p_text, table, untestable
-from signkin.studies.naert2017.exhibits import counted, with_flags
+from signkin.studies.naert2017.distances import with_flags
+from signkin.studies.naert2017.transitions import counted
 
 IN_WORDS = "in words"
 CHANGE = "change of hands"

@@ -11,11 +11,9 @@ import yaml
 
 from signkin.errors import SignkinError, listed
 from signkin.stages.plan import Plan, make_plan
-from signkin.studies.naert2017.synthesis.utterance import (
-    load_database,
-    printed_theta,
-    utterance_files,
-)
+from signkin.studies.naert2017.synthesis.database import load_database
+from signkin.studies.naert2017.synthesis.duration_models import printed_theta
+from signkin.studies.naert2017.synthesis.utterance_files import utterance_files
 
 RESULTS = Path("results")
 LONGEST_NAME = 60
