@@ -5,12 +5,13 @@ import warnings
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signkin import tables
 from signkin.coarticulation.sign_speeds import continuous, sign_speeds, step_angles
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.statistics import anova, association, equivalence, mixed, posthoc
 from signkin.statistics.effects import cohens_d, share_interval
 from signkin.statistics.findings import Finding, grouped
@@ -147,8 +148,8 @@ def test_speeds_of_signs_that_move_and_turn_steadily():
 
 
 @pytest.fixture(scope="module")
-def config(root):
-    content = yaml.safe_load((root / "config.yaml").read_text())
+def config():
+    content = legacy(Settings())
     content["durations"]["draws"] = 100
     return content
 

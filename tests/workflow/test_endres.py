@@ -25,11 +25,11 @@ def study_config():
     config["binning"].update(
         bins=40, orders=ORDERS, fitted_orders=[1, 3], fitted_recordings=2, bootstrap_draws=100,
         chance_trajectories=200,
-        sensitivity={
-            "recordings": 2, "orders": [0, 3], "dof": [None], "bins": [40], "time_unit": ["bin"],
-            "noise": ["sensor expected"], "concentration": [0.1],
-        },
     )  # fmt: skip
+    config["open_choices"]["endres2013"] = {
+        "recordings": 2, "orders": [0, 3], "dof": [None], "bins": [40], "time_unit": ["bin"],
+        "noise": ["sensor expected"], "concentration": [0.1],
+    }  # fmt: skip
     return config
 
 

@@ -1,8 +1,9 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
+from signkin.exhibits import exhibits, files, of_groups
 
 NAERT = PLAN.papers / "naert2017"
-NAERT_FIGURES = ("figures",)  # groups of its exhibits.yaml: what a rule draws
-SYNTHESIS_FIGURES = ("composition", "truth")
+NAERT_EXHIBITS = exhibits(NAERT)
+SYNTHESIS_FIGURES = ("composition", "truth")  # groups of its list
 SYNTHESIS = {
     k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
 }
@@ -91,7 +92,9 @@ rule naert_figures:
         published=NAERT / "table2.csv",
         exhibits=NAERT / "exhibits.yaml",
     output:
-        figures=figure_files("naert2017", *NAERT_FIGURES),
+        figures=files(
+            of_groups(NAERT_EXHIBITS, "figures"), "<results>/naert2017/{corpus}"
+        ),
         diamond="<results>/naert2017/{corpus}/diamond.csv",
         captions="<results>/naert2017/{corpus}/captions.json",
     log:
@@ -99,7 +102,7 @@ rule naert_figures:
     params:
         code=PLAN.digest("naert2017/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        groups=NAERT_FIGURES,
+        groups=("figures",),
         settings={k: config[k] for k in ("kinematics", "transitions")},
     script:
         "../scripts/naert2017/figures.py"
@@ -186,7 +189,10 @@ rule synthesis_figures:
         exhibits=NAERT / "exhibits.yaml",
         synthesis=rules.synthesis.output.synthesis,
     output:
-        figures=figure_files("naert2017", *SYNTHESIS_FIGURES),
+        figures=files(
+            of_groups(NAERT_EXHIBITS, *SYNTHESIS_FIGURES),
+            "<results>/naert2017/{corpus}",
+        ),
         captions="<results>/naert2017/{corpus}/synthesis/captions.json",
     log:
         "<logs>/naert2017/{corpus}/synthesis_figures.log",
@@ -211,7 +217,10 @@ if PLAN.with_found_signs:
             constants=NAERT / "constants.csv",
             exhibits=NAERT / "exhibits.yaml",
         output:
-            figures=figure_files("naert2017", "composition"),
+            figures=files(
+                of_groups(NAERT_EXHIBITS, "composition"),
+                "<results>/naert2017/{corpus}",
+            ),
             captions="<results>/naert2017/{corpus}/synthesis/captions.json",
         log:
             "<logs>/naert2017/{corpus}/composition_figures.log",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,14 +11,17 @@ import pandas as pd
 
 import signkin
 from signkin.corpus import Corpus
-from signkin.exhibits import Exhibit, exhibits
+from signkin.exhibits import exhibits, of_groups
 from signkin.pages.audit import audit_section
 from signkin.pages.corpora import design, first_rows, origin, sign_columns, titled
 from signkin.pages.speeds import SPEED_PANELS
 from signkin.report.exhibit_views import exhibit_view
-from signkin.report.page import FigureView, Page, Section, TableView
+from signkin.report.page import FigureView, Page, Section, TableView, figure_files
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.studies.endres2013 import report as endres_report
 from signkin.studies.naert2017 import report as naert_report
+from signkin.studies.naert2017.report import Shown
 from signkin.tables import read_table
 
 S3 = ".3f"
@@ -29,7 +32,7 @@ class Sources:
     """Where a report's parts lie.
 
     results: the results folder. corpora: those of this run. missing: corpus -> reason.
-    paper, endres: the folders papers/naert2017 and papers/endres2013. config: config.yaml.
+    paper, endres: the folders papers/naert2017 and papers/endres2013. settings: config.yaml.
     """
 
     results: Path
@@ -37,13 +40,7 @@ class Sources:
     missing: Mapping[str, str]
     paper: Path
     endres: Path
-    config: Mapping[str, Any]
-
-    @property
-    def constants(self) -> Mapping[str, str]:
-        """Numbers that the paper prints in its text, as strings."""
-        frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
-        return dict(zip(frame["name"], frame["value"], strict=True))
+    settings: Settings
 
     @property
     def published_n(self) -> int:
@@ -55,23 +52,18 @@ class Sources:
         """Return the file of a table that both studies share."""
         return self.results / corpus / f"{table}.csv"
 
-    def naert(self, corpus: str, name: str) -> Path:
-        """Return a file of Naert et al. 2017 for a corpus."""
-        return self.results / "naert2017" / corpus / name
+    @property
+    def naert(self) -> Shown:
+        """Where the parts of Naert et al. 2017 lie."""
+        return Shown(self.results / "naert2017", self.paper, self.corpora, self.settings)
 
 
 def make_page(sources: Sources) -> Page:
     """Return the report of a run."""
-    listing = exhibits(sources.paper)
-    sections = [_summary(sources), *_overview(sources, listing), audit_section(sources.results)]
-    for name, corpus in sources.corpora.items():
-        source = naert_report.Source(
-            corpus, sources.naert(name, ""), listing, sources.constants, sources.config
-        )
-        if part := naert_report.section(source):
-            sections.append(part)
+    sections = [_summary(sources), *_overview(sources), audit_section(sources.results)]
+    sections += naert_report.sections(sources.naert)
     sections += endres_report.sections(
-        sources.results, sources.endres, sources.corpora, sources.config
+        sources.results, sources.endres, sources.corpora, legacy(sources.settings)
     )
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
@@ -110,8 +102,8 @@ def _summary(sources: Sources) -> Section:
         title="Corpora of this run",
         caption="Transitions between manual tags, overlapping signs left out, zero-length ones "
         "kept; SD with divisor n - 1. The paper (Sign3D, LSF): "
-        f"{sources.published_n} transitions, mean {sources.constants['mean_duration']} s, SD "
-        f"{sources.constants['sd_duration']} s.",
+        f"{sources.published_n} transitions, mean {sources.naert.constants['mean_duration']} s, SD "
+        f"{sources.naert.constants['sd_duration']} s.",
         frame=pd.DataFrame(rows, columns=list(columns)),
         columns=columns,
     )
@@ -139,7 +131,7 @@ def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, objec
     if not corpus.tagged:
         signs = len(about) if corpus.single_signs else None
         return {**row, "signs": signs, "transitions": None, "mean_s": None, "sd_s": None}
-    table2 = read_table(sources.naert(name, "table2.csv"), "table2").set_index("type")
+    table2 = read_table(sources.naert.file(name, "table2.csv"), "table2").set_index("type")
     everything = table2.loc["all"]
     return {
         **row,
@@ -163,16 +155,14 @@ def _implausible(sources: Sources, name: str) -> Iterator[str]:
         )
 
 
-def _overview(sources: Sources, listing: Sequence[Exhibit]) -> Iterator[Section]:
+def _overview(sources: Sources) -> Iterator[Section]:
     caption = (
         "The rules of this run from raw motion to the report, each after those whose output it "
         "takes; the number in brackets is the paper's section."
     )
-    folder = sources.results / "naert2017"
-    for exhibit in listing:
-        if exhibit.group == "overview":
-            view = exhibit_view(exhibit, folder, caption)
-            yield Section("overview", "The pipeline", exhibits=(view,))
+    for exhibit in of_groups(exhibits(sources.paper), "overview"):
+        view = exhibit_view(exhibit, sources.results / "naert2017", caption)
+        yield Section("overview", "The pipeline", exhibits=(view,))
 
 
 # --- data and choices ------------------------------------------------------------------------
@@ -219,17 +209,17 @@ def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
 
 def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
     base = sources.results / name / "fig_speed"
-    lowpass = sources.config["kinematics"]["lowpass"]
+    lowpass = sources.settings.kinematics.lowpass
     shown = min(recordings, SPEED_PANELS)
     return FigureView(
         label="",
         title=titled("Wrist speed", sources.corpora[name]),
         caption="Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
-        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, "
-        f"half gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to "
+        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass.method}, "
+        f"half gain at {lowpass.cutoff_hz:g} Hz. The corpus has no tags, so there is nothing to "
         "refine.",
         svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
+        files=figure_files(base, ".svg", ".pdf"),
     )
 
 
@@ -249,7 +239,7 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
         parts.append(
             f"Gaps at {gaps['joint'].nunique()} joints: {int(gaps['missing_frames'].sum())} "
             f"missing positions, {int(gaps['filled_frames'].sum())} of them filled (gaps up to "
-            f"{sources.config['kinematics']['longest_gap_s']:g} s); the longest gap lasts "
+            f"{sources.settings.kinematics.longest_gap_s:g} s); the longest gap lasts "
             f"{worst['longest_gap_s']:.2f} s ({worst['joint']}, {worst['recording']})."
         )
     told = ", ".join(
@@ -260,7 +250,7 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
 
 
 def _choices(sources: Sources) -> Section:
-    rows = list(_flat(sources.config))
+    rows = list(_flat(sources.settings.model_dump()))
     view = TableView(
         label="",
         title="config.yaml",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from signkin.exhibits import SUFFIXES, Exhibit
-from signkin.report.page import FigureView
+from signkin.exhibits import Exhibit
+from signkin.report.page import FigureView, figure_files
 
 
 def exhibit_view(exhibit: Exhibit, folder: Path, caption: str) -> FigureView:
@@ -16,6 +16,6 @@ def exhibit_view(exhibit: Exhibit, folder: Path, caption: str) -> FigureView:
         title=exhibit.title,
         caption=caption,
         svg=base.with_suffix(".svg"),
-        files=tuple(base.with_suffix(s) for s in SUFFIXES),
+        files=figure_files(base),
         differs=exhibit.differs,
     )

@@ -5,16 +5,18 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.errors import listed
-from signkin.exhibits import Exhibit
+from signkin.exhibits import Exhibit, exhibits
 from signkin.report.exhibit_views import exhibit_view
-from signkin.report.page import FigureView, Section, TableView
+from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.studies.naert2017.durations_report import duration_views
 from signkin.studies.naert2017.synthesis import report as synthesis_report
 from signkin.tables import read_table
@@ -24,24 +26,54 @@ View = TableView | FigureView
 
 
 @dataclass(frozen=True)
-class Source:
-    """Where the parts of a corpus's section lie.
+class Shown:
+    """Where the parts of these sections lie.
 
-    folder: results/naert2017/<corpus>. listing: the paper's exhibits. constants: numbers that the
-    paper prints in its text, as strings. config: config.yaml.
+    results: results/naert2017. paper: papers/naert2017. corpora: those of this run.
     """
+
+    results: Path
+    paper: Path
+    corpora: Mapping[str, Corpus]
+    settings: Settings
+
+    @cached_property
+    def constants(self) -> Mapping[str, str]:
+        """Numbers that the paper prints in its text, as strings."""
+        frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
+        return dict(zip(frame["name"], frame["value"], strict=True))
+
+    @cached_property
+    def listing(self) -> tuple[Exhibit, ...]:
+        """What the paper shows."""
+        return exhibits(self.paper)
+
+    def file(self, corpus: str, name: str) -> Path:
+        """Return a file of a corpus."""
+        return self.results / corpus / name
+
+
+@dataclass(frozen=True)
+class Source:
+    """One corpus of these sections; folder: results/naert2017/<corpus>."""
 
     corpus: Corpus
     folder: Path
-    listing: tuple[Exhibit, ...]
-    constants: Mapping[str, str]
-    config: Mapping[str, Any]
+    shown: Shown
 
 
-def section(source: Source) -> Section | None:
-    """Return the section of a corpus; None for one without tags, where nothing was synthesised."""
-    if not source.corpus.tagged:
-        return synthesis_report.section(source.corpus, source.folder, source.listing)
+def sections(shown: Shown) -> Iterator[Section]:
+    """Yield a section a corpus with tags, or with takes of one sign."""
+    for name, corpus in shown.corpora.items():
+        folder = shown.file(name, "")
+        if corpus.tagged:
+            yield section(Source(corpus, folder, shown))
+        elif part := synthesis_report.section(corpus, folder, shown.listing):
+            yield part
+
+
+def section(source: Source) -> Section:
+    """Return the section of one corpus with tags."""
     corpus = source.corpus
     text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]
     text.append(f"Licence: {corpus.settings['licence']}. Source: {corpus.settings['citation']}.")
@@ -59,7 +91,7 @@ def _views(source: Source) -> Iterator[View]:
     """Yield the exhibits in the paper's order, each with what belongs to it, then the rest."""
     captions = json.loads((source.folder / "captions.json").read_text(encoding="utf-8"))
     captions |= synthesis_report.captions(source.folder)
-    for exhibit in source.listing:
+    for exhibit in source.shown.listing:
         if exhibit.stem in _TABLES:
             yield _TABLES[exhibit.stem](source, exhibit)
         elif exhibit.stem in captions:
@@ -78,7 +110,8 @@ def _views(source: Source) -> Iterator[View]:
 def _durations(source: Source, exhibit: Exhibit) -> Iterator[View]:
     told = {"label": exhibit.label, "title": exhibit.title, "differs": exhibit.differs}
     simulated = source.corpus.simulator is not None
-    yield from duration_views(source.folder, source.config, source.constants, told, simulated)
+    config = legacy(source.shown.settings)
+    yield from duration_views(source.folder, config, source.shown.constants, told, simulated)
 
 
 def _unused_glosses(source: Source) -> list[str]:
@@ -163,7 +196,7 @@ _TABLES: dict[str, Callable[[Source, Exhibit], TableView]] = {"table1": _table1,
 
 def _refinement(source: Source) -> Iterator[TableView | FigureView]:
     path = source.folder / "refinement.csv"
-    settings = source.config["refinement"]
+    settings = source.shown.settings.refinement
     columns = {
         "hand": ("hand", ""),
         "measure": ("measure", ""),
@@ -178,7 +211,7 @@ def _refinement(source: Source) -> Iterator[TableView | FigureView]:
     yield TableView(
         label="",
         title="How the tags lie to the speed minima",
-        caption=f"Window {settings['window_s']:g} s. Chance: {settings['draws']} sets of as many "
+        caption=f"Window {settings.search_window_s:g} s. Chance: {settings.draws} sets of as many "
         "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
         "the sets.",
         frame=read_table(path, "refinement"),
@@ -193,7 +226,7 @@ def _refinement(source: Source) -> Iterator[TableView | FigureView]:
         "away, against random tags (grey band: 95 % of the sets). Where the coloured line runs in "
         "the band, tags are no nearer to minima than chance has it; below the band, farther.",
         svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
+        files=figure_files(base, ".svg", ".pdf"),
     )
 
 
@@ -276,14 +309,14 @@ def _simulation(source: Source) -> Iterator[TableView | FigureView]:
     )
     path = source.folder / "surface.csv"
     frame = read_table(path, "surface")
-    unit = source.config["transitions"]["euclidean_unit_m"]
+    unit = source.shown.settings.transitions.euclidean_unit_m
     yield TableView(
         label="",
         title="The duration surface found again (eq. 4)",
         caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
         f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
-        f"paper: {source.constants['mean_error']} s). Designed: the same fit on the distances "
-        "that the simulation was made to have between the true boundaries; the tags stand off "
+        f"paper: {source.shown.constants['mean_error']} s). Designed: the same fit on the "
+        "distances that the simulation was made to have between the true boundaries; the tags stand off "
         "these, which shifts the fit.",
         frame=frame,
         columns={
@@ -304,5 +337,5 @@ def _simulation(source: Source) -> Iterator[TableView | FigureView]:
         caption="Left: share of tags over their error to the true boundary, before (dashed) and "
         "after refinement. Right: coefficients of the surface over the printed ones.",
         svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
+        files=figure_files(base, ".svg", ".pdf"),
     )
