@@ -316,8 +316,8 @@ def _simulation(source: Source) -> Iterator[TableView | FigureView]:
         caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
         f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
         f"paper: {source.shown.constants['mean_error']} s). Designed: the same fit on the "
-        "distances that the simulation was made to have between the true boundaries; the tags stand off "
-        "these, which shifts the fit.",
+        "distances that the simulation was made to have between the true boundaries; the tags "
+        "stand off these, which shifts the fit.",
         frame=frame,
         columns={
             "coefficient": ("coefficient", ""),
