@@ -22,6 +22,7 @@ from signkin.settings.legacy import legacy
 from signkin.studies.endres2013 import report as endres_report
 from signkin.studies.naert2017 import report as naert_report
 from signkin.studies.naert2017.report import Shown
+from signkin.studies.one_wrist import report as one_wrist_report
 from signkin.tables import read_table
 
 S3 = ".3f"
@@ -65,6 +66,7 @@ def make_page(sources: Sources) -> Page:
     sections += endres_report.sections(
         sources.results, sources.endres, sources.corpora, legacy(sources.settings)
     )
+    sections += one_wrist_report.sections(sources.results, sources.corpora)
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
     return Page(
