@@ -19,12 +19,14 @@ import yaml
 
 from signkin.coarticulation.transitions import with_normalised
 from signkin.corpus import Corpus, load_corpus
+from signkin.settings import Settings, load_settings
 from signkin.stages.ingest import Ingested, ingest
 from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
 from signkin.studies.naert2017 import simulation
 from signkin.studies.naert2017.figures import fig09_segmentations
 from signkin.studies.naert2017.refinement import boundaries, refinement
+from signkin.studies.naert2017.settings import TransitionSettings
 from signkin.studies.naert2017.transitions import counted, transitions
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -38,8 +40,8 @@ CHOICES: dict[str, dict[str, Any]] = {
     "prominence 0.02": {"kinematics.minima.prominence": 0.02},
     "prominence 0.1": {"kinematics.minima.prominence": 0.1},
     "spacing 0.1 s": {"kinematics.minima.spacing_s": 0.1},
-    "window 0.10 s": {"refinement.window_s": 0.10},
-    "window 0.20 s": {"refinement.window_s": 0.20},
+    "window 0.10 s": {"refinement.search_window_s": 0.10},
+    "window 0.20 s": {"refinement.search_window_s": 0.20},
     "orientations to the parent": {"transitions.geodesic_frame": "parent"},
 }
 
@@ -57,19 +59,20 @@ def changed(config: dict[str, Any], choice: dict[str, Any]) -> dict[str, Any]:
 
 
 def measures(
-    corpus: Corpus, read: Ingested, config: dict[str, Any], simulated: Path | None
+    corpus: Corpus, read: Ingested, settings: Settings, simulated: Path | None
 ) -> dict[str, str]:
     """Return the measures of one corpus under one configuration."""
-    found = kinematics(corpus, read.recordings, config["kinematics"])
+    found = kinematics(corpus, read.recordings, settings.kinematics)
     names = [r.name for r in read.recordings]
     intervals, minima = read.table("intervals"), found.table("minima", corpus.unit)
-    bounds = boundaries(corpus, names, intervals, minima, config["refinement"])
+    bounds = boundaries(corpus, names, intervals, minima, settings.refinement)
     frames = pd.concat(found.frames)
-    made = transitions(corpus, read.recordings, frames, intervals, bounds, config)
+    chosen = TransitionSettings.of(settings)
+    made = transitions(corpus, read.recordings, frames, intervals, bounds, chosen)
     moves = with_normalised(made["raw_transitions"], corpus.unit)
     quality, _ = refinement(
         corpus, read.table("recordings"), intervals, minima, bounds,
-        {**config["refinement"], "draws": 300}, config["seed"],
+        settings.refinement.model_copy(update={"draws": 300}), settings.seed,
     )  # fmt: skip
     right = quality[quality["hand"] == "right"].set_index("measure")
     near = right.loc["tags with a minimum within the window"]
@@ -118,7 +121,7 @@ def main() -> None:
         for choice, keys in CHOICES.items():
             if "parent" in choice and corpus.settings["motion"]["orientations"] != "recorded":
                 continue
-            rows[choice] = measures(corpus, read, changed(config, keys), simulated)
+            rows[choice] = measures(corpus, read, load_settings(changed(config, keys)), simulated)
         print(f"\n**{name}**\n\n{table(rows)}")
         moves = pd.read_csv(results / f"naert2017/{name}/transitions.csv", dtype={"type": str})
         durations = counted(moves)["duration_s"].to_numpy(dtype=float)

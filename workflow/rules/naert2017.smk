@@ -1,12 +1,17 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
 from signkin.exhibits import exhibits, files, of_groups
+from signkin.studies.naert2017.settings import (
+    FigureSettings,
+    GridSettings,
+    SynthesisSettings,
+    TableSettings,
+    TransitionSettings,
+)
 
 NAERT = PLAN.papers / "naert2017"
 NAERT_EXHIBITS = exhibits(NAERT)
 SYNTHESIS_FIGURES = ("composition", "truth")  # groups of its list
-SYNTHESIS = {
-    k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
-}
+SYNTHESIS = SynthesisSettings.of(SETTINGS)
 
 
 rule refine:
@@ -23,7 +28,7 @@ rule refine:
     params:
         code=PLAN.digest("naert2017/refine.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings=config["refinement"],
+        settings=SETTINGS.refinement,
     script:
         "../scripts/naert2017/refine.py"
 
@@ -45,7 +50,7 @@ rule transitions:
     params:
         code=PLAN.digest("naert2017/transitions.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings={k: config[k] for k in ("kinematics", "transitions", "sign_types")},
+        settings=TransitionSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/transitions.py"
 
@@ -75,8 +80,8 @@ rule naert_tables:
     params:
         code=PLAN.digest("naert2017/tables.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={k: config[k] for k in ("refinement", "transitions")},
+        seed=SETTINGS.seed,
+        settings=TableSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/tables.py"
 
@@ -103,7 +108,7 @@ rule naert_figures:
         code=PLAN.digest("naert2017/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         groups=("figures",),
-        settings={k: config[k] for k in ("kinematics", "transitions")},
+        settings=FigureSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/figures.py"
 
@@ -141,8 +146,8 @@ rule simulation_check:
         "<logs>/naert2017/{corpus}/simulation.log",
     params:
         code=PLAN.digest("naert2017/simulation_check.py"),
-        seed=config["seed"],
-        settings={k: config[k] for k in ("refinement", "transitions")},
+        seed=SETTINGS.seed,
+        settings=TableSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/simulation_check.py"
 
@@ -171,9 +176,9 @@ rule synthesis:
     params:
         code=PLAN.digest("naert2017/synthesis.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
+        seed=SETTINGS.seed,
         settings=SYNTHESIS,
-        draws=config["refinement"]["draws"],
+        draws=SETTINGS.refinement.draws,
     script:
         "../scripts/naert2017/synthesis.py"
 
@@ -284,7 +289,7 @@ rule duration_statistics:
     params:
         code=PLAN.digest("naert2017/duration_statistics.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        seed=config["seed"],
+        seed=SETTINGS.seed,
         settings={k: config[k] for k in ("transitions", "durations")},
     script:
         "../scripts/naert2017/duration_statistics.py"
@@ -307,7 +312,7 @@ rule duration_models:
     params:
         code=PLAN.digest("naert2017/duration_models.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        seed=config["seed"],
+        seed=SETTINGS.seed,
         settings={k: config[k] for k in ("transitions", "durations")},
     script:
         "../scripts/naert2017/duration_models.py"
@@ -354,10 +359,7 @@ rule multiverse:
     params:
         code=PLAN.digest("naert2017/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            k: config[k]
-            for k in ("kinematics", "refinement", "transitions", "multiverse")
-        },
+        seed=SETTINGS.seed,
+        settings=GridSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/open_choices.py"

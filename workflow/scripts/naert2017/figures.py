@@ -29,5 +29,5 @@ with job(snakemake):
     folder = Path(out.captions).parent
     with paper_style():
         write_figures(draw(measured, listing), listing, folder, out.captions, corpus.unit)
-    corners = diamond_table(corpus.name, measured.transitions, params.settings["transitions"])
+    corners = diamond_table(corpus.name, measured.transitions, params.settings.transitions)
     tables.write_table(corners, out.diamond, "diamond")

@@ -14,7 +14,7 @@ with job(snakemake):
         name,
         tables.read_table(source.boundaries, "boundaries"),
         tables.read_table(source.truth, "truth"),
-        settings["refinement"]["draws"],
+        settings.refinement.draws,
         snakemake.params.seed,
     )
     surface = simulation.surface(
@@ -22,7 +22,7 @@ with job(snakemake):
         tables.read_table(source.transitions, "transitions"),
         tables.read_table(source.design, "design"),
         pd.read_csv(source.constants, dtype=str, keep_default_na=False),
-        settings["transitions"]["euclidean_unit_m"],
+        settings.transitions.euclidean_unit_m,
     )
     for kind, table in {"truth_error": summary, "surface": surface}.items():
         tables.write_table(table, out[kind], kind)

@@ -29,7 +29,7 @@ with job(snakemake):
 
     moves = with_normalised(raw, unit)
     quality, chance = refinement(
-        corpus, about, intervals, minima, boundaries, settings["refinement"], snakemake.params.seed
+        corpus, about, intervals, minima, boundaries, settings.refinement, snakemake.params.seed
     )
     made = {
         "boundaries": ("boundaries", boundaries),
@@ -38,10 +38,10 @@ with job(snakemake):
         "left_out": ("transitions", left_out(moves)),
         "lexicon": ("lexicon", lexicon_use(corpus, sign_types)),
         "table1": ("table1", table1(corpus, intervals, sign_types)),
-        "table2": ("table2", table2(corpus.name, moves, published, settings["transitions"])),
+        "table2": ("table2", table2(corpus.name, moves, published, settings.transitions)),
         "refinement": ("refinement", quality),
     }
     for name, (kind, table) in made.items():
         tables.write_table(table, out[name], kind, unit)
     with paper_style():
-        save(draw_quality(boundaries, chance, settings["refinement"]["window_s"]), *out.quality)
+        save(draw_quality(boundaries, chance, settings.refinement.search_window_s), *out.quality)

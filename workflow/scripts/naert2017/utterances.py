@@ -18,7 +18,7 @@ with job(snakemake):
         corpus,
         Path(params.data),
         base,
-        wanted_of(corpus.name, params.settings["synthesis"]["utterances"]),
+        wanted_of(corpus.name, params.settings.synthesis.utterances),
         params.settings,
         printed_theta(source.constants),
         Path(out.folder),

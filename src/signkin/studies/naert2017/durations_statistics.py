@@ -216,7 +216,11 @@ def _distances(
             if plan.hand == "both":
                 exponents[plan.column] = exponent
         out += [f.noted(left) for f in found]
-    points, _ = with_flags(transitions, settings["transitions"])
+    points, _ = with_flags(
+        transitions,
+        settings["transitions"]["outlier_iqr"],
+        settings["transitions"]["diamond_share"],
+    )
     held = points.loc[points["mean_distance"].notna(), "in_diamond"].to_numpy(dtype=bool)
     out.append(association.share(held, "share in the diamond (Fig. 8)", "all", alpha))
     out.append(isochrony_in_words(exponents))

@@ -1,7 +1,7 @@
 """Claims of Naert et al. 2017 under every combination of choices that the paper leaves open.
 
 The same library functions as the pipeline's, run over a grid: low-pass, depth of a minimum,
-refinement window (config: multiverse), each hand, outliers kept or left out.
+refinement window (config: open_choices.naert2017), each hand, outliers kept or left out.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.recording import Recording
 from signkin.statistics.descriptive import outliers
+from signkin.studies.naert2017.settings import GridSettings
 from signkin.studies.naert2017.tagged import (
     filled_recording,
     intervals_of,
@@ -110,16 +111,16 @@ class _Take:
         recording: Recording,
         intervals: pd.DataFrame,
         types: list[str],
-        settings: Mapping[str, Any],
+        settings: GridSettings,
     ) -> _Take:
         signs = intervals_of(intervals, recording.name, "sign")
         utterances = utterances_of(corpus, intervals, recording.name, signs)
         follows = (u and u == v for u, v in pairwise(utterances))
-        filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
+        filled = filled_recording(recording, settings.kinematics.longest_gap_s)
         return cls(
             name=recording.name,
             filled=filled,
-            turns=turns_of(filled, settings["transitions"]["geodesic_frame"]),
+            turns=turns_of(filled, settings.transitions.geodesic_frame),
             signs=signs,
             manual=np.array([(sign.start_s, sign.end_s) for sign in signs]).reshape(-1, 2),
             before=np.array([i for i, there in enumerate(follows) if there], dtype=int),
@@ -133,16 +134,15 @@ def multiverse(
     intervals: pd.DataFrame,
     transitions: pd.DataFrame,
     excluded: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: GridSettings,
     seed: int,
 ) -> pd.DataFrame:
     """Return the table `multiverse` of a corpus.
 
     transitions: the pipeline's table, which has the types and the manual transitions.
     excluded: the table of recordings that are left out.
-    settings: config.yaml (kinematics, refinement, transitions, multiverse).
     """
-    grid = settings["multiverse"]
+    grid = settings.choices
     gathered: dict[Setting, Gathered] = defaultdict(Gathered)
     manual = between_manual(transitions)
     signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
@@ -153,7 +153,9 @@ def multiverse(
             take = _Take.of(corpus, recording, intervals, types, settings)
             _add(corpus.name, take, settings, seed, gathered)
     rows = list(_manual_rows(manual, settings))
-    for setting in (Setting(*s) for s in product(HANDS, *(grid[k] for k in _GRID))):
+    for setting in (
+        Setting(*s) for s in product(HANDS, grid.cutoff_hz, grid.prominence, grid.search_window_s)
+    ):
         if setting in gathered:
             rows += _refined_rows(setting, gathered[setting], settings)
     for row in rows:
@@ -164,27 +166,24 @@ def multiverse(
     return frame.sort_values("claim", kind="stable", ignore_index=True)
 
 
-_GRID = ("cutoff_hz", "prominence", "window_s")
-
-
 def _add(
     corpus: str,
     take: _Take,
-    settings: Mapping[str, Any],
+    settings: GridSettings,
     seed: int,
     gathered: dict[Setting, Gathered],
 ) -> None:
     """Add one recording to what each setting gathers."""
-    grid, tolerance_s = settings["multiverse"], settings["refinement"]["tolerance_s"]
+    grid, tolerance_s = settings.choices, settings.refinement.tolerance_s
     joints = take.filled.joints
     arms = {hand: [take.filled.index(j) for j in arm_joints(joints, hand)] for hand in HANDS}
-    for cutoff in grid["cutoff_hz"]:
+    for cutoff in grid.cutoff_hz:
         for hand, prominence, minima in _minima(take.filled, cutoff, settings):
             random = chance_distances(
-                take.signs, minima, take.filled.rate_hz, grid["draws"],
+                take.signs, minima, take.filled.rate_hz, grid.draws,
                 seeds.stream(seed, corpus, take.name, hand, "multiverse"),
             )  # fmt: skip
-            for window in grid["window_s"]:
+            for window in grid.search_window_s:
                 refined, moved, _ = refine(take.manual, minima, window, tolerance_s)
                 to = gathered[Setting(hand, cutoff, prominence, window)]
                 to.add_tags(take.manual, minima, random, window + tolerance_s)
@@ -193,7 +192,7 @@ def _add(
 
 
 def _minima(
-    filled: Recording, cutoff_hz: float, settings: Mapping[str, Any]
+    filled: Recording, cutoff_hz: float, settings: GridSettings
 ) -> Iterator[tuple[str, float, Floats]]:
     """Yield hand, prominence and minima (s) of a recording under one cut-off.
 
@@ -201,15 +200,15 @@ def _minima(
     anew: spacing goes before prominence.
     """
     rate = filled.rate_hz
-    method = {**settings["kinematics"]["lowpass"], "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
+    method = {**dict(settings.kinematics.lowpass), "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
     speeds = {
         hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate) for hand in HANDS
     }
     fastest = max(float(np.nanpercentile(s, 95)) for s in speeds.values())
-    spacing = settings["kinematics"]["minima"]["spacing_s"]
+    spacing = settings.kinematics.minima.spacing_s
     for hand, values in speeds.items():
         times, _, depths = minima_with_depth(values, rate, 0.0, spacing)
-        for prominence in settings["multiverse"]["prominence"]:
+        for prominence in settings.choices.prominence:
             yield hand, prominence, times[depths >= prominence * fastest]
 
 
@@ -231,7 +230,7 @@ def _distances(
 # --- rows ------------------------------------------------------------------------------------
 
 
-def _manual_rows(manual: pd.DataFrame, settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _manual_rows(manual: pd.DataFrame, settings: GridSettings) -> Iterator[dict[str, Any]]:
     counted = manual[manual["status"] != "overlap"]
     about = {"segmentation": "manual", "hand": "both"}
     yield from _duration_rows(
@@ -244,7 +243,7 @@ def _manual_rows(manual: pd.DataFrame, settings: Mapping[str, Any]) -> Iterator[
 
 
 def _refined_rows(
-    setting: Setting, found: Gathered, settings: Mapping[str, Any]
+    setting: Setting, found: Gathered, settings: GridSettings
 ) -> Iterator[dict[str, Any]]:
     about = {"segmentation": "refined", **vars(setting)}
     durations = np.concatenate(found.durations)
@@ -277,10 +276,10 @@ def _duration_rows(
     durations: Floats,
     distance: Floats,
     types: NDArray[np.str_],
-    settings: Mapping[str, Any],
+    settings: GridSettings,
 ) -> Iterator[dict[str, Any]]:
     """Yield N05 and N12, with outliers and, where there are any, without."""
-    out = outliers(durations, settings["transitions"]["outlier_iqr"])
+    out = outliers(durations, settings.transitions.outlier_iqr)
     for label, kept in (("kept", np.full(len(durations), True)), ("left out", ~out)):
         if label == "left out" and not out.any():
             continue

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,7 @@ from signkin.coarticulation.segmentation import (
 )
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
+from signkin.settings.sections import Refinement
 from signkin.studies.naert2017.tagged import intervals_of, together, with_lead
 
 
@@ -24,9 +24,9 @@ def boundaries(
     names: Iterable[str],
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: Refinement,
 ) -> pd.DataFrame:
-    """Return the table `boundaries` of some recordings; settings: config's `refinement`."""
+    """Return the table `boundaries` of some recordings."""
     parts = []
     for name in names:
         signs = intervals_of(intervals, name, "sign")
@@ -35,7 +35,7 @@ def boundaries(
             hand: of_recording.loc[of_recording["hand"] == hand, "minimum_s"].to_numpy(dtype=float)
             for hand in HANDS
         }
-        rows = boundary_rows(signs, times, settings["window_s"], settings["tolerance_s"])
+        rows = boundary_rows(signs, times, settings.search_window_s, settings.tolerance_s)
         parts.append(with_lead(corpus, name, rows))
     return together(parts, "boundaries", corpus.unit)
 
@@ -46,13 +46,12 @@ def refinement(
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
     bounds: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: Refinement,
     seed: int,
 ) -> tuple[pd.DataFrame, dict[str, np.ndarray]]:
     """Return the table `refinement`, and all chance distances (draws, tags) of each hand.
 
-    about: the table `recordings`. bounds: the table `boundaries`. settings: config's
-    `refinement`.
+    about: the table `recordings`. bounds: the table `boundaries`.
     """
     chance = {}
     rates = about.set_index("recording")["rate_hz"]
@@ -64,10 +63,10 @@ def refinement(
                 signs,
                 minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
                 float(rates[name]),
-                settings["draws"],
+                settings.draws,
                 seeds.stream(seed, corpus.name, name, hand, "chance"),
             )
-    rows = refinement_quality(bounds, chance, settings["window_s"], settings["tolerance_s"])
+    rows = refinement_quality(bounds, chance, settings.search_window_s, settings.tolerance_s)
     rows.insert(0, "corpus", corpus.name)
     pooled = {
         hand: np.concatenate([d for (_, h), d in chance.items() if h == hand], axis=1)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,6 +16,7 @@ from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps
 from signkin.kinematics.rotations import parent_relative
 from signkin.recording import Recording
+from signkin.settings.sections import Lowpass
 from signkin.stages.ingest import lead
 
 
@@ -67,13 +66,13 @@ def turns_of(recording: Recording, geodesic_frame: str) -> np.ndarray | None:
 
 
 def smoothed(
-    recording: Recording, orientations: np.ndarray | None, filter_: Mapping[str, Any]
+    recording: Recording, orientations: np.ndarray | None, filter_: Lowpass
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Return positions and orientations low-passed, as the speeds of signs are taken from them."""
-    positions = lowpass(recording.positions, recording.rate_hz, **filter_)
+    positions = lowpass(recording.positions, recording.rate_hz, **dict(filter_))
     smooth = None
     if orientations is not None:
-        smooth = lowpass(continuous(orientations), recording.rate_hz, **filter_)
+        smooth = lowpass(continuous(orientations), recording.rate_hz, **dict(filter_))
         smooth /= np.linalg.norm(smooth, axis=2, keepdims=True)
     return positions, smooth
 

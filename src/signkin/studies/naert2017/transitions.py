@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,8 @@ from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.recording import Recording
+from signkin.settings.sections import Lowpass
+from signkin.studies.naert2017.settings import TransitionSettings
 from signkin.studies.naert2017.tagged import (
     filled_recording,
     intervals_of,
@@ -33,31 +34,31 @@ def transitions(
     wrist_frames: pd.DataFrame,
     intervals: pd.DataFrame,
     refined: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: TransitionSettings,
 ) -> dict[str, pd.DataFrame]:
     """Return the tables `sign_types`, `raw_transitions` and `transition_speeds` of recordings.
 
     wrist_frames: the frames of kinematics; recordings that it lacks are left out. refined: the
-    table `boundaries`. settings: config.yaml (kinematics, transitions, sign_types).
+    table `boundaries`.
     """
     frames = {str(name): part for name, part in wrist_frames.groupby("recording", sort=False)}
-    rule = TypeRule(**settings["sign_types"])
+    rule = TypeRule(**dict(settings.sign_types))
     types, moves, speeds = [], [], []
     for recording in recordings:
         if recording.name not in frames:
             continue
         signs = intervals_of(intervals, recording.name, "sign")
         utterances = utterances_of(corpus, intervals, recording.name, signs)
-        filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
-        wrists = _wrists(filled, frames[recording.name], settings["kinematics"]["lowpass"])
+        filled = filled_recording(recording, settings.kinematics.longest_gap_s)
+        wrists = _wrists(filled, frames[recording.name], settings.kinematics.lowpass)
         kinds = sign_type_rows(signs, utterances, wrists, corpus.lexicon, rule)
-        orientations = turns_of(filled, settings["transitions"]["geodesic_frame"])
+        orientations = turns_of(filled, settings.transitions.geodesic_frame)
         tags = {hand: _tags(refined, recording.name, hand) for hand in HANDS}
         rows = transition_rows(filled, orientations, signs, utterances, kinds, tags)
         kinds.insert(4, "utterance", utterances)
         types.append(with_lead(corpus, recording.name, kinds))
         moves.append(with_lead(corpus, recording.name, rows))
-        around = _speeds(filled, orientations, signs, utterances, settings["kinematics"]["lowpass"])
+        around = _speeds(filled, orientations, signs, utterances, settings.kinematics.lowpass)
         speeds.append(with_lead(corpus, recording.name, around))
     made = {"sign_types": types, "raw_transitions": moves, "transition_speeds": speeds}
     return {kind: together(parts, kind, corpus.unit) for kind, parts in made.items()}
@@ -68,20 +69,20 @@ def _speeds(
     orientations: np.ndarray | None,
     signs: list[Interval],
     utterances: list[str],
-    filter_: Mapping[str, Any],
+    filter_: Lowpass,
 ) -> pd.DataFrame:
     """Return the mean speeds of the signs around each transition, motion low-passed."""
     speeds = sign_speeds(*smoothed(recording, orientations, filter_), signs, recording)
     return transition_speed_rows(speeds, utterances, recording.unit)
 
 
-def _wrists(recording: Recording, frames: pd.DataFrame, filter_: Mapping[str, Any]) -> Wrists:
+def _wrists(recording: Recording, frames: pd.DataFrame, filter_: Lowpass) -> Wrists:
     """Return the wrists' paths relative to the trunk: a body that sways moves no hand."""
     trunk: np.ndarray | float = 0.0
     shoulders = [f"{hand}_shoulder" for hand in HANDS]
     if all(joint in recording.joints for joint in shoulders):
         middle = (recording.track(shoulders[0]) + recording.track(shoulders[1])) / 2
-        trunk = lowpass(middle, recording.rate_hz, **filter_)
+        trunk = lowpass(middle, recording.rate_hz, **dict(filter_))
 
     def path(hand: str) -> np.ndarray:
         columns = [f"{hand}_wrist_{axis}_{recording.unit}" for axis in "xyz"]

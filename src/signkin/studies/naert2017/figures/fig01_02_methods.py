@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -27,6 +25,7 @@ from signkin.studies.naert2017.figures.skeleton_parts import (
     takes_of,
     track,
 )
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import Timing
 from signkin.studies.naert2017.synthesis.joining import INTERPOLATION
@@ -60,9 +59,9 @@ def method_figure(
     pair: tuple[int, int],
     method: str,
     clock: Timing,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> Drawn:
-    """Draw the transition between two tokens. settings: config.yaml (synthesis)."""
+    """Draw the transition between two tokens."""
     shown = what_is_shown(base, pair, method, clock, settings)
     return Drawn(drawing(shown, base.corpus.unit), data(base, shown), caption(base, shown, clock))
 
@@ -72,7 +71,7 @@ def what_is_shown(
     pair: tuple[int, int],
     method: str,
     clock: Timing,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> Shown:
     """Return the transition, and its postures at eight instants."""
     signs = signs_of(base, pair)

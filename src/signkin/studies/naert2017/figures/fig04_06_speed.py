@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,6 +14,7 @@ from signkin.coarticulation.excerpts import RULES, Excerpt, excerpt_points
 from signkin.corpus import Corpus
 from signkin.figures import speed, style
 from signkin.report.drawn import Drawn
+from signkin.settings.sections import Lowpass
 
 REFINED = ("fig06",)  # shows refined tags; the others show minima
 
@@ -26,9 +26,9 @@ def speed_figure(
     boundaries: pd.DataFrame,
     minima: pd.DataFrame,
     frames: Sequence[Path],
-    lowpass: Mapping[str, Any],
+    lowpass: Lowpass,
 ) -> Drawn:
-    """Draw an excerpt. frames: files of the kinematics. lowpass: config's kinematics.lowpass."""
+    """Draw an excerpt. frames: files of the kinematics."""
     kinematics = speeds_of(excerpt.recording, frames, corpus.unit)
     rate_hz = 1.0 / float(np.median(np.diff(kinematics["time_s"])))
     points = data(corpus, excerpt, kinematics, boundaries, minima)
@@ -71,12 +71,12 @@ def drawing(points: pd.DataFrame, unit: str, rate_hz: float, marks: str) -> Figu
     return figure
 
 
-def caption(excerpt: Excerpt, unit: str, marks: str, lowpass: Mapping[str, Any]) -> str:
+def caption(excerpt: Excerpt, unit: str, marks: str, lowpass: Lowpass) -> str:
     """Tell what is drawn, how it was filtered, and by which rule it was chosen."""
     what = "refined tags of each hand" if marks == "refined" else "local minima of each hand"
     return (
         f"Speed of the right (blue) and left (red) wrist in {style.SPEED_UNITS[unit]}, recording "
         f"{excerpt.recording}, {excerpt.from_s:.2f}-{excerpt.to_s:.2f} s; manual tags green, "
-        f"{what}. Low-pass: {lowpass['method']}, half gain at {lowpass['cutoff_hz']:g} Hz, no "
+        f"{what}. Low-pass: {lowpass.method}, half gain at {lowpass.cutoff_hz:g} Hz, no "
         f"delay. Excerpt: {RULES[excerpt.rule]}."
     )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -35,6 +33,7 @@ from signkin.studies.naert2017.figures.skeleton_parts import (
     speed_rows,
     track,
 )
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.comparison import OWN
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import MODELS
@@ -74,18 +73,15 @@ class Shown:
         return list(dict.fromkeys(panel.model for panel in self.panels))
 
 
-def captured_figure(base: Database, rows: pd.DataFrame, settings: Mapping[str, Any]) -> Drawn:
-    """Draw a transition of usual length and error.
-
-    rows: the table `synthesis`. settings: config.yaml (kinematics, synthesis).
-    """
+def captured_figure(base: Database, rows: pd.DataFrame, settings: SynthesisSettings) -> Drawn:
+    """Draw a transition of usual length and error; rows: the table `synthesis`."""
     if rows.empty:
         return nothing_to_draw(base, "The corpus has no captured transition.")
     shown = what_is_shown(base, rows, settings)
     return Drawn(drawing(shown, base.corpus.unit), data(base, shown), caption(base, shown))
 
 
-def what_is_shown(base: Database, rows: pd.DataFrame, settings: Mapping[str, Any]) -> Shown:
+def what_is_shown(base: Database, rows: pd.DataFrame, settings: SynthesisSettings) -> Shown:
     """Return the transition chosen, its postures and its speeds."""
     signs = signs_of(base, shown_pair(base, rows))
     take = signs[0].recording
@@ -124,7 +120,7 @@ def _panel(
     duration_s: float,
     instant_s: float,
     recorded: Array,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> Panel:
     made = {
         method: make(method, signs, duration_s, settings).motion.positions for method in METHODS

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -31,6 +29,7 @@ from signkin.studies.naert2017.figures.skeleton_parts import (
     speed_rows,
     takes_of,
 )
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import model_durations
 from signkin.studies.naert2017.synthesis.joining import INTERPOLATION
@@ -62,24 +61,21 @@ class Shown:
         return f"last posture of\n{first.gloss}", f"first posture of\n{second.gloss}"
 
 
-def composition_figure(base: Database, settings: Mapping[str, Any], printed: Array) -> Drawn:
-    """Draw the composition of two distant signs.
-
-    settings: config.yaml (kinematics, durations, synthesis). printed: theta of the paper.
-    """
+def composition_figure(base: Database, settings: SynthesisSettings, printed: Array) -> Drawn:
+    """Draw the composition of two distant signs; printed: theta of the paper."""
     shown = what_is_shown(base, settings, printed)
-    bounds = (settings["durations"]["lowest_s"], settings["durations"]["highest_s"])
+    bounds = (settings.durations.lowest_s, settings.durations.highest_s)
     return Drawn(drawing(shown, base.corpus.unit, bounds), data(base, shown), caption(base, shown))
 
 
-def what_is_shown(base: Database, settings: Mapping[str, Any], printed: Array) -> Shown:
+def what_is_shown(base: Database, settings: SynthesisSettings, printed: Array) -> Shown:
     """Return the two signs chosen, and all that is made between them."""
     pair = far_pair(base)
     signs = signs_of(base, pair)
     take = signs[0].recording
-    durations, told = model_durations(base, pair, settings, printed)
+    durations, told = model_durations(base, pair, settings.durations, printed)
     if not durations:
-        durations = {"simple_bounded": float(settings["durations"]["highest_s"])}
+        durations = {"simple_bounded": float(settings.durations.highest_s)}
     hand = busier(signs)
     model = "surface" if "surface" in durations else next(reversed(durations))
     wrists = [take.index(f"{h}_wrist") for h in HANDS]

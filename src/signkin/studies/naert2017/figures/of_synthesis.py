@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import pandas as pd
 
@@ -16,6 +15,7 @@ from signkin.studies.naert2017.figures.fig01_02_methods import method_figure
 from signkin.studies.naert2017.figures.fig12_captured import captured_figure
 from signkin.studies.naert2017.figures.fig13_composition import composition_figure
 from signkin.studies.naert2017.figures.skeleton_parts import Array, nothing_to_draw
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import Timing, timing
 
@@ -27,19 +27,18 @@ class Synthesised:
     """What the figures are drawn from.
 
     rows: the table `synthesis`, None for a corpus without tags. printed: theta of the paper.
-    settings: config.yaml (kinematics, transitions, durations, synthesis).
     """
 
     base: Database
     rows: pd.DataFrame | None
     printed: Array
-    settings: Mapping[str, Any]
+    settings: SynthesisSettings
 
     @cached_property
     def clock(self) -> Timing:
         """How long transitions last."""
-        chosen = self.settings["synthesis"]["duration"]
-        return timing(self.base, chosen, self.settings["durations"], self.printed)
+        chosen = self.settings.synthesis.duration
+        return timing(self.base, chosen, self.settings.durations, self.printed)
 
 
 def draw(of: Synthesised, listing: Iterable[Exhibit]) -> dict[str, Drawn]:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -23,6 +22,7 @@ from signkin.studies.naert2017.figures.fig08_diamond import diamond_figure
 from signkin.studies.naert2017.figures.fig09_segmentations import segmentation_figure
 from signkin.studies.naert2017.figures.fig10_hands import hands_figure
 from signkin.studies.naert2017.figures.notice import notice
+from signkin.studies.naert2017.settings import FigureSettings
 from signkin.studies.naert2017.transitions import counted
 
 NO_SIGNS = "No utterance of the corpus has three signs in a row."
@@ -32,8 +32,7 @@ NO_SIGNS = "No utterance of the corpus has three signs in a row."
 class Measured:
     """What the figures are drawn from: tables of a corpus by name, and more.
 
-    frames: the files of its kinematics. published: Table 2 as printed. settings: config.yaml
-    (kinematics, transitions).
+    frames: the files of its kinematics. published: Table 2 as printed.
     """
 
     corpus: Corpus
@@ -43,7 +42,7 @@ class Measured:
     minima: pd.DataFrame
     frames: Sequence[Path]
     published: pd.DataFrame
-    settings: Mapping[str, Any]
+    settings: FigureSettings
 
     @cached_property
     def excerpts(self) -> dict[str, Excerpt]:
@@ -54,7 +53,8 @@ class Measured:
     @cached_property
     def distances(self) -> tuple[pd.DataFrame, Diamond | None]:
         """The table `distances`, and the diamond."""
-        return with_flags(self.transitions, self.settings["transitions"])
+        chosen = self.settings.transitions
+        return with_flags(self.transitions, chosen.outlier_iqr, chosen.diamond_share)
 
 
 def draw(measured: Measured, listing: Iterable[Exhibit]) -> dict[str, Drawn]:
@@ -73,18 +73,18 @@ def _speed(stem: str) -> Callable[[Measured], Drawn]:
             of.boundaries,
             of.minima,
             of.frames,
-            of.settings["kinematics"]["lowpass"],
+            of.settings.kinematics.lowpass,
         )
 
     return drawn
 
 
 def _distance(of: Measured) -> Drawn:
-    return distance_figure(of.corpus, of.distances[0], of.settings["transitions"]["outlier_iqr"])
+    return distance_figure(of.corpus, of.distances[0], of.settings.transitions.outlier_iqr)
 
 
 def _diamond(of: Measured) -> Drawn:
-    return diamond_figure(*of.distances, of.settings["transitions"]["diamond_share"])
+    return diamond_figure(*of.distances, of.settings.transitions.diamond_share)
 
 
 def _segmentations(of: Measured) -> Drawn:

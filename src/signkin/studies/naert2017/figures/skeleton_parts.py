@@ -20,6 +20,7 @@ from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.report.drawn import Drawn
 from signkin.studies.naert2017.figures.notice import notice
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.joining import joined
 from signkin.studies.naert2017.synthesis.measures import CONTEXT_S
@@ -52,13 +53,10 @@ def signs_of(base: Database, shown: tuple[int, int]) -> Signs:
     return first, fitted(second, first.recording)[0]
 
 
-def make(method: str, signs: Signs, duration_s: float, settings: Mapping[str, Any]) -> Transition:
-    """Return the transition between two signs, of one frame step at least.
-
-    settings: config.yaml (synthesis).
-    """
+def make(method: str, signs: Signs, duration_s: float, settings: SynthesisSettings) -> Transition:
+    """Return the transition between two signs, of one frame step at least."""
     shown = max(duration_s, 1 / signs[0].recording.rate_hz)
-    return joined(signs, shown, method, settings["synthesis"])
+    return joined(signs, shown, method, settings.synthesis)
 
 
 def track(signs: Signs, between: Array, context_s: float) -> tuple[Array, Array]:
@@ -81,18 +79,18 @@ def speed_curve(
     signs: Signs,
     between: Array,
     hand: str,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
     duration_s: float | None = None,
 ) -> Curve:
     """Return the low-passed speed of a wrist through a transition, with a part of both signs.
 
     between: postures of the transition, (n + 1, J, 3). duration_s: where its mark stands; None:
-    n frame steps. settings: config.yaml (kinematics).
+    n frame steps.
     """
     take = signs[0].recording
     times, path = track(signs, between, 2 * CONTEXT_S)
     wrist = lowpass(path[:, take.index(f"{hand}_wrist")], take.rate_hz,
-                    **settings["kinematics"]["lowpass"])  # fmt: skip
+                    **dict(settings.kinematics.lowpass))  # fmt: skip
     speed = np.linalg.norm(np.gradient(wrist, 1 / take.rate_hz, axis=0), axis=1)
     length = (len(between) - 1) / take.rate_hz
     inside = (times >= -SIDE_S) & (times <= length + SIDE_S)
@@ -104,7 +102,7 @@ def model_curves(
     durations: Mapping[str, float],
     method: str,
     hand: str,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> dict[str, Curve]:
     """Return the speed by each duration model (model -> s), all by one method."""
     return {

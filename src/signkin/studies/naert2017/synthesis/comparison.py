@@ -18,7 +18,9 @@ from signkin.coarticulation.synthesis import (
     steps_of,
 )
 from signkin.joints import HANDS
+from signkin.settings.sections import Kinematics
 from signkin.stages.ingest import lead
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Array, Database, Pair
 from signkin.studies.naert2017.synthesis.duration_models import captured, groups_of, predictions
 from signkin.studies.naert2017.synthesis.joining import joined
@@ -40,11 +42,8 @@ _MEASURED = (
 )  # fmt: skip
 
 
-def comparison(base: Database, settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return the table `synthesis`: each captured transition made anew by each method.
-
-    settings: config.yaml (kinematics, transitions, durations, synthesis).
-    """
+def comparison(base: Database, settings: SynthesisSettings) -> pd.DataFrame:
+    """Return the table `synthesis`: each captured transition made anew by each method."""
     pairs = base.pairs()
     if not pairs:
         return tables.empty("synthesis", base.corpus.unit)
@@ -55,24 +54,19 @@ def comparison(base: Database, settings: Mapping[str, Any]) -> pd.DataFrame:
         OTHER: substitutes(base, pairs),
     }
     known = captured(base, pairs)
-    depth = {
-        name: least_depth(take, settings["kinematics"]) for name, take in base.recordings.items()
-    }
+    depth = {name: least_depth(take, settings.kinematics) for name, take in base.recordings.items()}
     rows = []
     for material, tokens in chosen.items():
         stand_ins = [t or p for t, p in zip(tokens, own, strict=True)]
         asked = base.features([a for a, _ in stand_ins], [b for _, b in stand_ins])
-        predicted = predictions(known, groups, asked, settings["durations"])
+        predicted = predictions(known, groups, asked, settings.durations)
         for i, (pair, ends) in enumerate(zip(pairs, tokens, strict=True)):
             if ends is None:
                 continue
             durations = {model: float(values[i]) for model, values in predicted.items()}
             durations[TRUE] = pair.true_s
-            kinematic = {
-                **settings["kinematics"],
-                "depth": depth[base.tokens[pair.first].sign.recording.name],
-            }
-            rows += _rows(base, pair, ends, material, durations, kinematic, settings["synthesis"])
+            least = depth[base.tokens[pair.first].sign.recording.name]
+            rows += _rows(base, pair, ends, material, durations, least, settings)
     return pd.DataFrame(rows)[tables.TABLES["synthesis"].names(base.corpus.unit)]
 
 
@@ -116,13 +110,13 @@ class _Captured:
     measures: Measures | None
 
     @classmethod
-    def of(cls, base: Database, pair: Pair, kinematic: Mapping[str, Any]) -> _Captured:
+    def of(cls, base: Database, pair: Pair, depth: float, kinematic: Kinematics) -> _Captured:
         first, second = (base.tokens[i].sign for i in (pair.first, pair.second))
         take = first.recording
         postures = take.positions[first.last : second.first + 1]
         got = None
         if len(postures) > 1:
-            got = measures(take, first.last, postures, take, second.first, kinematic)
+            got = measures(take, first.last, postures, take, second.first, kinematic, depth)
         return cls((first, second), postures, got)
 
 
@@ -132,15 +126,15 @@ def _rows(
     ends: tuple[int, int],
     material: str,
     durations: Mapping[str, float],
-    kinematic: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    depth: float,
+    settings: SynthesisSettings,
 ) -> list[dict[str, Any]]:
     """Return the rows of one captured transition, made of two signs: a model and method each.
 
-    durations: model -> s, NaN where it has none.
+    durations: model -> s, NaN where it has none. depth: least one of a minimum of speed.
     """
     unit = base.corpus.unit
-    captured_one = _Captured.of(base, pair, kinematic)
+    captured_one = _Captured.of(base, pair, depth, settings.kinematics)
     take = captured_one.signs[0].recording
     first, second = (base.tokens[i].sign for i in ends)
     gap_s = _room(base, ends)
@@ -168,7 +162,7 @@ def _rows(
             shown, notes = _at_least_a_frame(wanted, model, take.rate_hz)
             key = (method, steps_of(shown, take.rate_hz))
             if key not in made_before:
-                made_before[key] = _made(method, first, second, shown, kinematic, settings)
+                made_before[key] = _made(method, first, second, shown, depth, settings)
             made, got = made_before[key]
             row |= _measured(made, got, unit)
             errors, more = _errors(captured_one, made, got, unit)
@@ -231,17 +225,18 @@ def _made(
     first: Sign,
     second: Sign,
     duration_s: float,
-    kinematic: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    depth: float,
+    settings: SynthesisSettings,
 ) -> tuple[Transition, Measures]:
-    made = joined((first, second), duration_s, method, settings)
+    made = joined((first, second), duration_s, method, settings.synthesis)
     got = measures(
         first.recording,
         first.last,
         made.motion.positions,
         second.recording,
         second.first,
-        kinematic,
+        settings.kinematics,
+        depth,
     )
     return made, got
 

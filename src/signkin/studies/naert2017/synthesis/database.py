@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -23,6 +22,8 @@ from signkin.coarticulation.transitions import SAME_INSTANT_S
 from signkin.corpus import Corpus
 from signkin.io.store import read_recordings
 from signkin.recording import Recording
+from signkin.settings.sections import Lowpass
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.found import found_signs
 from signkin.studies.naert2017.synthesis.stock import Place, placed
 from signkin.studies.naert2017.tagged import (
@@ -69,7 +70,7 @@ class Database:
     tokens: tuple[Token, ...]
     turns: Mapping[str, Array | None]
     euclidean_unit: float
-    lowpass: Mapping[str, Any]
+    lowpass: Lowpass
     angle: float
 
     def candidates(self, chosen: Sequence[int]) -> Candidates:
@@ -148,17 +149,14 @@ def database(
     corpus: Corpus,
     recordings: Iterable[Recording],
     intervals: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> Database:
-    """Gather the tagged signs of a corpus; short gaps filled, all takes at one place.
-
-    settings: config.yaml (kinematics, transitions, durations, synthesis).
-    """
+    """Gather the tagged signs of a corpus; short gaps filled, all takes at one place."""
     takes: dict[str, Recording] = {}
     tokens: list[Token] = []
     for recording in recordings:
-        filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
-        if settings["synthesis"]["align_takes"] and takes:
+        filled = filled_recording(recording, settings.kinematics.longest_gap_s)
+        if settings.synthesis.align_takes and takes:
             filled = placed(filled, Place.of(next(iter(takes.values()))))
         takes[filled.name] = filled
         signs = intervals_of(intervals, filled.name, "sign")
@@ -174,22 +172,21 @@ def of_tokens(
     corpus: Corpus,
     takes: Mapping[str, Recording],
     tokens: Sequence[Token],
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> Database:
     """Return the database of signs that are known already."""
-    unit = settings["transitions"]["euclidean_unit_m"] if corpus.unit == "m" else 1.0
-    frame = settings["transitions"]["geodesic_frame"]
+    unit = settings.transitions.euclidean_unit_m if corpus.unit == "m" else 1.0
+    frame = settings.transitions.geodesic_frame
     turns = {name: turns_of(take, frame) for name, take in takes.items()}
-    angle = 1.0 if settings["durations"]["simple_angle"] == "half" else 2.0
-    lowpass_settings = settings["kinematics"]["lowpass"]
-    return Database(corpus, takes, tuple(tokens), turns, unit, lowpass_settings, angle)
+    angle = 1.0 if settings.durations.simple_angle == "half" else 2.0
+    return Database(corpus, takes, tuple(tokens), turns, unit, settings.kinematics.lowpass, angle)
 
 
 def sign_database(
     corpus: Corpus,
     takes: Sequence[Recording],
     intervals: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> tuple[Database, pd.DataFrame]:
     """Return the signs of a corpus and the table `found_signs` (empty for a corpus with tags)."""
     base = database(corpus, takes, intervals, settings)
@@ -217,7 +214,7 @@ def load_database(
     files: Sequence[str | Path],
     intervals: str | Path,
     excluded: str | Path,
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
 ) -> tuple[Database, pd.DataFrame]:
     """Read canonical recordings and tags, those left out aside; returns as `sign_database`."""
     without = set(tables.read_table(excluded, "excluded")["recording"])

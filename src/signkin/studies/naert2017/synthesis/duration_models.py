@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,19 +19,20 @@ from signkin.coarticulation.duration import (
     Transitions,
 )
 from signkin.errors import SignkinError
+from signkin.settings.sections import Durations
 from signkin.studies.naert2017.synthesis.database import Array, Database, Pair
 
 MODELS = ("simple", "simple_bounded", "linear", "surface")
 METRES = "m"
 
 
-def maker(model: str, settings: Mapping[str, Any], geodesic: bool) -> Callable[[], DurationModel]:
-    """Return what makes a duration model; settings: config's `durations`.
+def maker(model: str, settings: Durations, geodesic: bool) -> Callable[[], DurationModel]:
+    """Return what makes a duration model.
 
     geodesic: whether the corpus has this distance; without, SIMPLE is its Euclidean part alone.
     """
-    alpha = settings["simple_alpha"] if geodesic else 1.0
-    low, high = settings["lowest_s"], settings["highest_s"]
+    alpha = settings.simple_alpha if geodesic else 1.0
+    low, high = settings.lowest_s, settings.highest_s
     makers: dict[str, Callable[[], DurationModel]] = {
         "simple": lambda: duration.SimpleDuration(alpha),
         "simple_bounded": lambda: duration.SimpleBoundedDuration(alpha, low, high),
@@ -63,11 +63,11 @@ def with_durations(data: Transitions, duration_s: Array) -> Transitions:
 
 
 def predictions(
-    known: Transitions, groups: Sequence[str], asked: Transitions, settings: Mapping[str, Any]
+    known: Transitions, groups: Sequence[str], asked: Transitions, settings: Durations
 ) -> dict[str, Array]:
     """Return what each model predicts for `asked`, (N,), having learnt from other groups.
 
-    settings: config's `durations`. known: the captured transitions. asked: what is to be
+    known: the captured transitions. asked: what is to be
     predicted in their place, row by row. A model that cannot be fitted or asked predicts NaN.
     """
     labels = np.array(groups)
@@ -128,14 +128,13 @@ class Timing:
         return value, note
 
 
-def timing(base: Database, model: str, settings: Mapping[str, Any], printed: np.ndarray) -> Timing:
+def timing(base: Database, model: str, settings: Durations, printed: np.ndarray) -> Timing:
     """Return the duration model, learnt from all captured transitions of the corpus.
 
     printed: theta of the paper's surface, for corpora without transitions to learn from.
-    settings: config's `durations`.
     """
     pairs = base.pairs()
-    usual = MeanDuration((settings["lowest_s"] + settings["highest_s"]) / 2)
+    usual = MeanDuration((settings.lowest_s + settings.highest_s) / 2)
     if pairs:
         known = captured(base, pairs)
         usual = MeanDuration(float(known.duration_s.mean()))
@@ -160,7 +159,7 @@ def timing(base: Database, model: str, settings: Mapping[str, Any], printed: np.
 
 
 def model_durations(
-    base: Database, pair: tuple[int, int], settings: Mapping[str, Any], printed: Array
+    base: Database, pair: tuple[int, int], settings: Durations, printed: Array
 ) -> tuple[dict[str, float], str]:
     """Return what each model says about two signs, and what the models have learnt from."""
     asked = base.features([pair[0]], [pair[1]])
@@ -173,7 +172,7 @@ def model_durations(
     geodesic = bool(np.isfinite(source.geodesic).any())
     out = {}
     for name in MODELS:
-        make, model = maker(name, settings["durations"], geodesic), None
+        make, model = maker(name, settings, geodesic), None
         try:
             if known is not None:
                 model = known[usable(name, known)].teach(make())

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +10,7 @@ from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.recording import Recording
+from signkin.settings.sections import Kinematics
 from signkin.studies.naert2017.synthesis.database import Array
 
 CONTEXT_S = 0.5  # of the signs around a transition, for filter and minima
@@ -32,27 +31,26 @@ def measures(
     between: Array,
     after: Recording,
     first: int,
-    settings: Mapping[str, Any],
+    settings: Kinematics,
+    depth: float,
 ) -> Measures:
     """Measure a transition among the signs around it.
 
     between: positions (n + 1, J, 3) from posture `last` of `before` to posture `first` of
-    `after`. settings: config's `kinematics`, with the least `depth` of a minimum.
+    `after`. depth: least one of a minimum, as `least_depth` tells.
     """
     path, start, end = spliced(before, last, between, after, first)
     if np.isnan(path).any() or len(path) < 5:
         return Measures(float("nan"), float("nan"), float("nan"))
     rate = before.rate_hz
-    smooth = lowpass(path, rate, **settings["lowpass"])
+    smooth = lowpass(path, rate, **dict(settings.lowpass))
     speed = np.linalg.norm(np.gradient(smooth, 1 / rate, axis=0), axis=-1)
     jerk = np.linalg.norm(np.diff(smooth, n=3, axis=0), axis=-1) * rate**3
     # The third difference of frames k to k + 3 belongs between k + 1 and k + 2.
     inside = jerk[max(0, start - 1) : max(start, end - 1)]
     count = 0
     for hand in range(2):
-        times = minima_with_depth(
-            speed[:, hand], rate, settings["depth"], settings["minima"]["spacing_s"]
-        )[0]
+        times = minima_with_depth(speed[:, hand], rate, depth, settings.minima.spacing_s)[0]
         frames = np.rint(times * rate)
         count += int(((frames > start) & (frames < end)).sum())
     return Measures(
@@ -74,14 +72,14 @@ def spliced(
     return path, len(head), len(head) + len(between) - 1
 
 
-def least_depth(recording: Recording, settings: Mapping[str, Any]) -> float:
+def least_depth(recording: Recording, settings: Kinematics) -> float:
     """Return how deep a minimum must be: the share of config of the faster hand's speed."""
     wrists = [recording.index(f"{hand}_wrist") for hand in HANDS]
-    smooth = lowpass(recording.positions[:, wrists], recording.rate_hz, **settings["lowpass"])
+    smooth = lowpass(recording.positions[:, wrists], recording.rate_hz, **dict(settings.lowpass))
     speed = np.linalg.norm(np.gradient(smooth, 1 / recording.rate_hz, axis=0), axis=-1)
     fastest = max((float(np.nanpercentile(s, 95)) for s in speed.T if not np.isnan(s).all()),
                   default=0.0)  # fmt: skip
-    return float(settings["minima"]["prominence"]) * fastest
+    return settings.minima.prominence * fastest
 
 
 def aligned_errors(found: Array, truth: Array) -> Array:

@@ -19,6 +19,7 @@ from signkin.coarticulation.synthesis import (
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError, listed
 from signkin.recording import Recording
+from signkin.settings.sections import Synthesis
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import Timing
 from signkin.studies.naert2017.synthesis.joining import INTERPOLATION, joined
@@ -37,12 +38,12 @@ def make_utterance(
     base: Database,
     tokens: Sequence[int],
     clock: Timing,
-    settings: Mapping[str, Any],
+    settings: Synthesis,
     takes: Mapping[str, Recording] | None = None,
 ) -> Utterance:
     """Join the signs of some tokens by synthetic transitions.
 
-    settings: config's `synthesis`. takes: recordings with all joints to make the motion from
+    takes: recordings with all joints to make the motion from
     (the file's skeleton); None: the canonical ones, from which distances always come.
     """
     whole = takes or base.recordings
@@ -122,7 +123,7 @@ def _transition(
     tokens: Sequence[int],
     signs: Sequence[Sign],
     clock: Timing,
-    settings: Mapping[str, Any],
+    settings: Synthesis,
     takes: Mapping[str, Recording],
 ) -> tuple[Transition, dict[str, Any]]:
     data = base.features([tokens[0]], [tokens[1]])
@@ -132,7 +133,7 @@ def _transition(
     if wanted < 1 / rate:
         notes.append(f"{wanted:.3f} s predicted: one frame step made")
         wanted = 1 / rate
-    method = settings["method"]
+    method = settings.method
     idle = None if method == INTERPOLATION else _idle(base, signs[0], takes)
     made = joined(signs, wanted, method, settings, idle)
     notes += made.notes

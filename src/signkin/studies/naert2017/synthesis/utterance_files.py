@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,6 +16,8 @@ from signkin.io.bvh import channel_values, parse_bvh, write_bvh
 from signkin.io.registry import in_file_axes
 from signkin.io.wide_csv import write_positions
 from signkin.recording import Recording
+from signkin.settings.sections import Utterance as Wanted
+from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
 from signkin.studies.naert2017.synthesis.duration_models import timing
 from signkin.studies.naert2017.synthesis.retrieval import retrieved
@@ -24,9 +25,9 @@ from signkin.studies.naert2017.synthesis.stock import Place, placement
 from signkin.studies.naert2017.synthesis.utterance import Utterance, make_utterance, parts_table
 
 
-def wanted_of(corpus: str, utterances: Iterable[Mapping[str, Any]]) -> dict[str, list[str]]:
+def wanted_of(corpus: str, utterances: Iterable[Wanted]) -> dict[str, list[str]]:
     """Return the utterances of a corpus, name -> glosses; utterances: config's list of them."""
-    return {u["name"]: list(u["glosses"]) for u in utterances if u["corpus"] == corpus}
+    return {u.name: list(u.glosses) for u in utterances if u.corpus == corpus}
 
 
 def is_bvh(corpus: Corpus) -> bool:
@@ -89,26 +90,26 @@ def utterance_files(
     folder: Path,
     base: Database,
     wanted: Mapping[str, Sequence[str]],
-    settings: Mapping[str, Any],
+    settings: SynthesisSettings,
     printed: np.ndarray,
     out: Path,
 ) -> pd.DataFrame:
     """Make and write some utterances (name -> glosses); returns their table `utterances`.
 
-    settings: config.yaml (durations, synthesis). out: folder of the files, which is made.
+    out: folder of the files, which is made.
     """
-    chosen = settings["synthesis"]
+    chosen = settings.synthesis
     out.mkdir(parents=True, exist_ok=True)
-    clock = timing(base, chosen["duration"], settings["durations"], printed)
+    clock = timing(base, chosen.duration, settings.durations, printed)
     tables_of = []
     for name, glosses in wanted.items():
-        tokens = retrieved(base, list(glosses), chosen["retrieval"])
+        tokens = retrieved(base, list(glosses), chosen.retrieval)
         names = [base.tokens[t].sign.recording.name for t in tokens]
         idle = corpus.settings.get("synthesis", {}).get("idle")
         takes = None
         if is_bvh(corpus):
             more = [idle["recording"]] if idle and idle["recording"] in base.recordings else []
-            takes = whole_takes(corpus, folder, base, [*names, *more], chosen["align_takes"])
+            takes = whole_takes(corpus, folder, base, [*names, *more], chosen.align_takes)
         made = make_utterance(base, tokens, clock, chosen, takes)
         write_utterance(made, corpus, folder, names[0], out / name)
         parts = parts_table(made, corpus, name)
