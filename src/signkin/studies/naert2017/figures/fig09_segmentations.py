@@ -15,7 +15,14 @@ from signkin.report.drawn import Drawn
 def segmentation_figure(corpus: Corpus, transitions: pd.DataFrame) -> Drawn:
     """Draw each transition of one hand twice, joined. transitions: the table."""
     pairs = data(transitions, corpus.unit)
-    return Drawn(drawing(pairs, corpus.unit), pairs, caption(pairs, corpus.unit))
+    told = caption(pairs, corpus.unit, points_of_an_arm(transitions))
+    return Drawn(drawing(pairs, corpus.unit), pairs, told)
+
+
+def points_of_an_arm(transitions: pd.DataFrame) -> int:
+    """Return from how many joints of one arm a distance is made, gaps aside; 0 without any."""
+    arms = transitions.loc[transitions["hand"] != "both", "n_joints"]
+    return int(arms.max()) if arms.notna().any() else 0
 
 
 def data(transitions: pd.DataFrame, unit: str) -> pd.DataFrame:
@@ -43,8 +50,11 @@ def drawing(pairs: pd.DataFrame, unit: str) -> Figure:
     return figure
 
 
-def caption(pairs: pd.DataFrame, unit: str) -> str:
-    """Tell how many pairs are drawn, and how far refinement changes their durations."""
+def caption(pairs: pd.DataFrame, unit: str, points: int) -> str:
+    """Tell how many pairs are drawn, and how far refinement changes their durations.
+
+    points: joints of an arm; with one there is no mean over joints.
+    """
     whole = pairs.dropna()
     changed = {
         hand: (g["refined_duration_s"] - g["manual_duration_s"]).abs().median()
@@ -59,7 +69,9 @@ def caption(pairs: pd.DataFrame, unit: str) -> str:
         f"with their negative durations. Median change of the duration: {told}."
     )
     if unit == "px":
-        text += " Distances in image pixels; the hand's centre is the arm's only point."
+        text += " Distances in image pixels."
+    if points == 1:
+        text += " An arm has one point: its wrist, or what corpus.yaml puts in its place."
     lost = len(pairs) - len(whole)
     if lost:
         text += f" {lost} pairs have no distance: gaps in the motion."
