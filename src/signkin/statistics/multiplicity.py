@@ -6,11 +6,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from statsmodels.stats.multitest import multipletests
 
 from signkin.statistics.findings import Finding
 
 METHOD = "Holm"
+
+
+def holm_of(p: ArrayLike) -> NDArray[np.float64]:
+    """Return the p of a family, (K,), adjusted by Holm's step-down procedure."""
+    values = np.asarray(p, dtype=float)
+    return np.asarray(multipletests(values, method="holm")[1]) if len(values) else values
 
 
 def holm(findings: Sequence[Finding], belongs: Callable[[Finding], bool]) -> list[Finding]:
@@ -24,7 +31,7 @@ def holm(findings: Sequence[Finding], belongs: Callable[[Finding], bool]) -> lis
     out = list(findings)
     if not family:
         return out
-    adjusted = multipletests([findings[i].p for i in family], method="holm")[1]
+    adjusted = holm_of([findings[i].p for i in family])
     for i, p in zip(family, adjusted, strict=True):
         out[i] = replace(findings[i], p_holm=float(p)).noted(
             f"{METHOD}: one of {len(family)} tests"

@@ -26,7 +26,7 @@ from signkin.coarticulation.duration import (
 from signkin.errors import SignkinError
 from signkin.statistics import association
 from signkin.statistics.findings import joined
-from signkin.studies.naert2017.exhibits import counted
+from signkin.studies.naert2017.transitions import counted
 
 MODELS = ("MEAN", "SIMPLE", "SIMPLE_BOUNDED", "LINEAR", "SURFACE", "SURFACE_PRINTED")
 ONE_DISTANCE = "no geodesic distance: its Euclidean part alone"

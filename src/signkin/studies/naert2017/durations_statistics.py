@@ -14,8 +14,9 @@ from signkin.statistics import anova, association, equivalence, mixed, posthoc, 
 from signkin.statistics.descriptive import hand_change, outliers
 from signkin.statistics.findings import Finding, Kind, grouped, table, untestable
 from signkin.statistics.multiplicity import holm
+from signkin.studies.naert2017.distances import with_flags
 from signkin.studies.naert2017.durations_words import Question, in_words, isochrony_in_words
-from signkin.studies.naert2017.exhibits import counted, with_flags
+from signkin.studies.naert2017.transitions import counted
 
 NO_TYPE = "no sign has a type"
 TWO_HANDED = "1"  # first digit of a type: symmetry is defined for these signs alone
@@ -267,7 +268,11 @@ def _distances(
     # Seven distances ask whether duration goes with distance, each by two measures.
     for test in (association.PEARSON, association.SPEARMAN):
         out = holm(out, lambda f, test=test: f.test == test)  # type: ignore[misc]
-    points, _ = with_flags(transitions, settings["transitions"])
+    points, _ = with_flags(
+        transitions,
+        settings["transitions"]["outlier_iqr"],
+        settings["transitions"]["diamond_share"],
+    )
     held = points.loc[points["mean_distance"].notna(), "in_diamond"].to_numpy(dtype=bool)
     out.append(association.share(held, "share in the diamond (Fig. 8)", "all", alpha))
     out.append(isochrony_in_words(exponents))
