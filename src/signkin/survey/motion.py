@@ -177,7 +177,7 @@ def _tempo(recording: Recording) -> Notice:
     found = []
     for path in wrists(recording).values():
         filled = fill_gaps(path, recording.rate_hz, LONGEST_GAP_S)[0]
-        runs = stretches(~np.isnan(filled).any(axis=1))
+        runs = stretches(np.asarray(~np.isnan(filled).any(axis=1)))
         first, end = max(runs, key=lambda r: r[1] - r[0], default=(0, 0))
         if (end - first) / recording.rate_hz >= TEMPO_LEAST_S:
             found.append((float(np.ptp(filled[first:end], axis=0).max()), filled[first:end]))
