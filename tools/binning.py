@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 from numpy.typing import NDArray
 
 from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
+from signkin.settings.legacy import legacy
 from signkin.stages.ingest import ingest
 from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
@@ -51,6 +51,7 @@ from tools.binning_tables import (
     of_recovery,
 )
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
@@ -387,7 +388,7 @@ def splines(of: Takes, config: Settings) -> None:
 
 def main(results: Path, data: Path) -> dict[str, str]:
     """Print every table; returns those of the page."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    config = legacy(shipped())
     single = {name: of for name in SINGLE if (of := takes(name, results, data)) is not None}
     many = table(
         ("", "n, median bins", *(f"order {order}" for order in ORDERS)), many_boundaries(results)
@@ -422,7 +423,7 @@ def main(results: Path, data: Path) -> dict[str, str]:
 
 def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, from simulated recordings, to compare."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    config = legacy(shipped())
     of = takes("isl-sim", results, results)
     assert of is not None
     one = outcome(of, config, VARIANTS[SHIPPED])

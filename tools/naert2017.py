@@ -5,23 +5,24 @@ python -m tools.numbers RESULTS DATA naert2017
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from signkin.coarticulation.transitions import with_normalised
 from signkin.corpus import Corpus, load_corpus
+from signkin.settings.legacy import legacy
+from signkin.settings.sections import Settings
 from signkin.stages.ingest import Ingested, ingest
 from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
 from signkin.studies.naert2017 import coarticulation, simulation
 from signkin.studies.naert2017 import exhibits as naert2017
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 CHOICES: dict[str, dict[str, Any]] = {
@@ -34,31 +35,20 @@ CHOICES: dict[str, dict[str, Any]] = {
     "prominence 0.02": {"kinematics.minima.prominence": 0.02},
     "prominence 0.1": {"kinematics.minima.prominence": 0.1},
     "spacing 0.1 s": {"kinematics.minima.spacing_s": 0.1},
-    "window 0.10 s": {"refinement.window_s": 0.10},
-    "window 0.20 s": {"refinement.window_s": 0.20},
+    "window 0.10 s": {"refinement.search_window_s": 0.10},
+    "window 0.20 s": {"refinement.search_window_s": 0.20},
     "orientations to the parent": {"transitions.geodesic_frame": "parent"},
 }
 SHIPPED = "as shipped"
 Measures = Mapping[str, str]
 
 
-def changed(config: dict[str, Any], choice: dict[str, Any]) -> dict[str, Any]:
-    """Return the configuration with some keys changed."""
-    out = copy.deepcopy(config)
-    for path, value in choice.items():
-        *parents, key = path.split(".")
-        place = out
-        for parent in parents:
-            place = place[parent]
-        place[key] = value
-    return out
-
-
 def measures(
-    corpus: Corpus, read: Ingested, config: dict[str, Any], simulated: Path | None
+    corpus: Corpus, read: Ingested, settings: Settings, simulated: Path | None
 ) -> dict[str, str]:
-    """Return the measures of one corpus under one configuration."""
-    found = kinematics(corpus, read.recordings, config["kinematics"])
+    """Return the measures of one corpus under some settings."""
+    config = legacy(settings)
+    found = kinematics(corpus, read.recordings, settings.kinematics)
     names = [r.name for r in read.recordings]
     intervals, minima = read.table("intervals"), found.table("minima", corpus.unit)
     bounds = coarticulation.boundaries(corpus, names, intervals, minima, config["refinement"])
@@ -101,13 +91,12 @@ def of_corpus(
     name: str, folder: Path, choices: Mapping[str, dict[str, Any]]
 ) -> dict[str, dict[str, str]]:
     """Return the measures of a corpus under each choice. folder: its recordings."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
     corpus = load_corpus(ROOT / "corpora" / name)
     read = ingest(corpus, folder, corpus.entries)
     simulated = folder if corpus.simulator else None
     recorded = corpus.settings["motion"]["orientations"] == "recorded"
     return {
-        choice: measures(corpus, read, changed(config, keys), simulated)
+        choice: measures(corpus, read, shipped(keys), simulated)
         for choice, keys in choices.items()
         if recorded or "parent" not in choice
     }
