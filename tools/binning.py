@@ -28,7 +28,6 @@ from signkin.studies.endres2013.posteriors import (
     FITTED_MAP,
     Data,
     Study,
-    boundary_times,
     chosen,
     prior_of,
 )
@@ -142,6 +141,7 @@ def binned(
     return fit_many(
         x, ORDERS, [prior_of(prior, of.corpus.noise_sd * variant.noise, one) for one in x],
         [t.bin_s for t in trajectories], max_count=variant.max_count, expectations=False,
+        sample_at=[t.sample_at for t in trajectories],
     )  # fmt: skip
 
 
@@ -158,7 +158,7 @@ def rates(
     """Return hit rate and false positives a second on ground truth."""
     found = [
         hit_rate(
-            boundary_times(choose(fit, order), t.bin_s), t.boundaries_s, window_s,
+            fit.times_s(choose(fit, order)), t.boundaries_s, window_s,
             duration_s=t.duration_s,
         )
         for t, fit in zip(trajectories, fits, strict=True)

@@ -16,7 +16,7 @@ PLACE = "flow"
 OPEN = ("studies",)
 PARTS = (
     "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics",
-    "figures", "report", "audit", "stages", "studies", "pages", "corpus",
+    "figures", "report", "audit", "stages", "studies", "pages", "corpus", "survey",
 )  # fmt: skip
 
 
