@@ -19,6 +19,7 @@ from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
+from signkin.settings import Settings, load_settings
 from signkin.stages.ingest import ingest
 from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
