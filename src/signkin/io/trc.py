@@ -8,7 +8,7 @@ an empty cell, NaN in any case, and 0, 0, 0 are gaps.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import islice
+from itertools import dropwhile, islice
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
@@ -48,8 +48,13 @@ def read_trc(
     separator = "\t" if "\t" in head_lines[1] else "," if "," in head_lines[1] else ";"
     layout = Layout(separator, decimal, encoding=encoding)
     head = _head(head_lines, separator, layout)
-    points = read_markers(
+    # Some leave a line free below the header, and some fill it with separators.
+    rows = dropwhile(
+        lambda row: not any(cell.strip() for cell in row[1]),
         rows_of(path, layout, separator, _LINES + 1),
+    )
+    points = read_markers(
+        rows,
         head,
         layout,
         joints,
