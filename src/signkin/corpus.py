@@ -88,6 +88,11 @@ class Corpus:
         return all(entry.sign for entry in self.entries)
 
     @property
+    def skips(self) -> bool:
+        """Whether a recording that cannot be used is left out instead of ending the run."""
+        return bool(self.settings.get("on_error", "stop") == "skip")
+
+    @property
     def noise_sd(self) -> float:
         """Standard deviation of the device's noise in the unit after reading (m or px)."""
         return float(self.settings["noise_sd"])
@@ -337,16 +342,46 @@ def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> P
 
 
 def check_files(corpus: Corpus, folder: Path) -> None:
-    """Refuse a corpus whose data folder lacks a file that recordings.csv names."""
+    """Refuse a corpus whose data folder lacks a file that recordings.csv names, or leads out of it.
+
+    Where the corpus says `on_error: skip`, that is found when the recording is read.
+    """
+    if corpus.skips:
+        return
     for entry in corpus.entries:
         for name in (entry.motion, entry.annotation):
-            if name and not (folder / name).is_file():
-                raise SignkinError(
-                    f"there is no file {folder / name}",
-                    file=corpus.folder / "recordings.csv",
-                    place=f"line {entry.line}",
-                    expected="the recording's file in the data folder",
-                )
+            if name:
+                data_file(corpus, folder, entry, name)
+
+
+def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
+    """Return the path of a recording's file: one that is there, in the data folder.
+
+    A path that climbs out of the folder, and a link that leads out of it or nowhere, are errors:
+    recordings.csv may come from anywhere.
+    """
+    path = folder / name
+    try:
+        there = path.is_file() or path.is_dir()
+        outside = not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError) as error:  # links in a ring, zero bytes
+        there, outside, path = False, False, Path(f"{folder}/{name!r} ({type(error).__name__})")
+    if outside:
+        raise SignkinError(
+            f"{name} leads out of the data folder {folder}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="a file below it",
+            todo="Copy or link the files into the data folder itself.",
+        )
+    if not there:
+        raise SignkinError(
+            f"there is no file {path}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="the recording's file in the data folder",
+        )
+    return path
 
 
 def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
@@ -354,7 +389,7 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
     expected = corpus.settings.get("checksums", {}).get(name)
     if expected is None:
         return
-    found = hashlib.sha256((folder / name).read_bytes()).hexdigest()
+    found = _digest(folder / name)
     if found != expected:
         raise SignkinError(
             f"the SHA-256 of {name} is {found}",
@@ -363,6 +398,17 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
             expected=expected,
             todo="Get the file again, or correct the checksum if the change is meant.",
         )
+
+
+def _digest(path: Path) -> str:
+    """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
+    if not path.is_dir():
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    whole = hashlib.sha256()
+    for file in sorted(path.iterdir()):
+        if file.is_file():
+            whole.update(f"{file.name}\0{hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    return whole.hexdigest()
 
 
 def data_dir_of(config: Mapping[str, Any]) -> str | None:

@@ -96,8 +96,8 @@ def test_formats_of_the_schema_are_those_that_can_be_read(root):
     ("settings", "told"),
     [
         (
-            changed(motion__unit="inch"),
-            r"corpus.yaml, key motion.unit: 'inch' .*expected m, cm, mm",
+            changed(motion__unit="ell"),
+            r"corpus.yaml, key motion.unit: 'ell' .*expected m, cm, mm",
         ),
         (changed(noise_sd=None), r"corpus.yaml: 'noise_sd' is a required property"),
         (changed(motion__rate_hz=0), r"key motion.rate_hz: 0 is less than or equal .*capture rate"),

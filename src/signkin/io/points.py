@@ -13,6 +13,7 @@ from signkin.clock import SECONDS_PER, clock_of, resample
 from signkin.errors import SignkinError, listed
 from signkin.io.registry import SourceMotion
 from signkin.io.text import quoted
+from signkin.velocities import integrate
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -45,16 +46,19 @@ def source_motion(
     missing: Sequence[float] = (),
     confidence_threshold: float = 0.0,
     image_size: Sequence[float] | None = None,
+    velocities: str | None = None,
 ) -> SourceMotion:
     """Return points as motion: what is missing becomes a gap, 0 to 1 becomes pixels.
 
     A header's rate and the times must agree; resample_hz makes an uneven clock even, with a note.
+    velocities: `integrate`, where the values are velocities in unit/s: also with a note.
     """
     positions = points.positions.copy()
     _blank(positions, points, missing, confidence_threshold)
     unit = points.unit
     if image_size is not None:
-        positions *= _pixels(image_size)
+        with np.errstate(over="ignore"):  # what becomes infinite is refused as that
+            positions *= _pixels(image_size)
         unit = "px"
     rate, possible, start, notes = points.rate_hz, points.rate_range, 0.0, list(points.notes)
     if points.times is not None:
@@ -78,6 +82,15 @@ def source_motion(
         raise SignkinError(
             "there are no times to resample by", place="options, resample_hz", expected="times"
         )
+    if velocities is not None:
+        if velocities != "integrate" or rate is None:
+            raise SignkinError(
+                f"velocities is {quoted(velocities)}" if rate is not None else "no times",
+                place="options, velocities",
+                expected="integrate, and times that tell the rate",
+            )
+        positions = integrate(positions, rate)
+        notes.append("positions are velocities, integrated: they drift")
     return SourceMotion(
         rate_hz=rate,
         joints=points.joints,

@@ -117,7 +117,8 @@ def which_person(seen: NDArray[np.bool_], part: str | None) -> int:
 def _points(pose: Any, person: int) -> NDArray[np.float64]:
     """Return (F, points, 3) with NaN where the tracker saw nothing; z is 0 in two dimensions."""
     data = pose.body.data[:, person, :, :3]
-    found = np.ma.getdata(data).astype(float)
+    with np.errstate(invalid="ignore"):  # a signalling NaN is a gap like any other
+        found = np.ma.getdata(data).astype(float)
     points = np.zeros((*found.shape[:2], 3))
     points[..., : found.shape[2]] = found
     seen = np.asarray(pose.body.confidence[:, person]) > 0
@@ -137,8 +138,9 @@ def _in_one_unit(
         raise SignkinError(
             f"an image of {size.width} x {size.height} pixels", place="header", expected="a size"
         )
-    metres = data / np.array([size.width, size.height, 1.0])
-    pixels = data * np.array([1.0, 1.0, size.width])
+    with np.errstate(over="ignore", under="ignore"):
+        metres = data / np.array([size.width, size.height, 1.0])
+        pixels = data * np.array([1.0, 1.0, size.width])
     if components == {WORLD}:
         return metres[:, indices], "m"
     if WORLD not in components:

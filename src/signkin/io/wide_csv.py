@@ -66,6 +66,7 @@ def read_wide_csv(
     confidence: Mapping[str, str] | None = None,
     confidence_threshold: float = 0.0,
     image_size: Sequence[float] | None = None,
+    velocities: str | None = None,
 ) -> SourceMotion:
     """Read one recording of a table.
 
@@ -78,6 +79,7 @@ def read_wide_csv(
     this is missing), or a list of them.
     confidence: joint -> column; below confidence_threshold, or at 0, the point is missing.
     image_size: [width, height] in pixels, for coordinates from 0 to 1.
+    velocities: `integrate`, where the columns are velocities in unit/s; positions start at 0.
     """
     if not joints:
         raise SignkinError(
@@ -126,6 +128,7 @@ def read_wide_csv(
         missing=missing_numbers(missing),
         confidence_threshold=confidence_threshold,
         image_size=image_size,
+        velocities=velocities,
     )
 
 
