@@ -162,6 +162,7 @@ def load_corpus(folder: Path) -> Corpus:
     check_schema(settings, "corpus", folder / "corpus.yaml")
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
+    _check_shared_tables(settings["motion"], entries, folder / "recordings.csv")
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     return Corpus(folder.name, folder, settings, entries, signs)
@@ -286,6 +287,22 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
         )
     if not count:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
+
+
+def _check_shared_tables(motion: Mapping[str, Any], entries: tuple[Entry, ...], file: Path) -> None:
+    """Refuse two recordings of one table that nothing tells apart: each would be all of it."""
+    if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
+        return
+    parts: dict[str, Entry] = {}
+    for entry in entries:
+        first = parts.setdefault(entry.motion, entry)
+        if first.part != entry.part:
+            raise SignkinError(
+                f"{entry.recording} and {first.recording} are parts of {entry.motion}",
+                file=file,
+                place=f"line {entry.line}",
+                expected="motion.options.recording_column in corpus.yaml, which tells them apart",
+            )
 
 
 def _check_repetition(

@@ -46,10 +46,6 @@ def read_npy(
     if values.ndim == 4:
         there = np.isfinite(values).any(axis=(0, 2, 3)) & (values != 0).any(axis=(0, 2, 3))
         values = values[:, which_person(there, part)]
-    elif part is not None:
-        raise SignkinError(
-            f"the part is {quoted(part)}", place="part", expected="nothing: there is one person"
-        )
     dimensions = values.shape[2] - bool(confidence) if values.ndim == 3 else 0
     if dimensions not in (2, 3):
         raise SignkinError(

@@ -66,11 +66,7 @@ def pick_markers(
     """
     kept = list(range(len(labels)))
     prefixes = list(dict.fromkeys(label.rpartition(":")[0] for label in labels if ":" in label))
-    if subject is not None:
-        if subject not in prefixes:
-            raise SignkinError(
-                f"no subject {quoted(subject)}", place="part", expected=listed(prefixes)
-            )
+    if subject in prefixes:  # otherwise the part names something else, such as a row of the tags
         kept = [i for i in kept if labels[i].rpartition(":")[0] == subject]
     full = [labels[i] for i in kept]
     short = [label.rpartition(":")[2] for label in full]

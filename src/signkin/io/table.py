@@ -83,21 +83,30 @@ PLAIN = Layout()
 
 
 def read_text_table(
-    path: Path, layout: Layout = PLAIN, wanted: Sequence[str] | None = None
+    path: Path,
+    layout: Layout = PLAIN,
+    wanted: Sequence[str] | None = None,
+    also: frozenset[str] = frozenset(),
 ) -> pd.DataFrame:
     """Return a table with every cell as text; a file is parsed once, however often asked for.
 
-    wanted: the columns to keep (None: all). One file can hold hundreds of recordings. The row
+    wanted: the columns to keep (None: all); also: those besides, in small letters, that are kept
+    where they are there. One file can hold hundreds of recordings. The row
     with index i stands in line i + 2 of the file, whatever was passed over before it.
     """
     state = Path(path).stat()
     names = None if wanted is None else tuple(dict.fromkeys(str(name) for name in wanted))
-    return _parsed(Path(path), state.st_mtime_ns, state.st_size, layout, names)
+    return _parsed(Path(path), state.st_mtime_ns, state.st_size, layout, names, also)
 
 
 @lru_cache(maxsize=4)
 def _parsed(
-    path: Path, mtime_ns: int, size: int, layout: Layout, wanted: tuple[str, ...] | None
+    path: Path,
+    mtime_ns: int,
+    size: int,
+    layout: Layout,
+    wanted: tuple[str, ...] | None,
+    also: frozenset[str],
 ) -> pd.DataFrame:
     header, separator, first = _header(path, layout, wanted)
     doubled = sorted({name for name in header if name and header.count(name) > 1})
@@ -106,7 +115,8 @@ def _parsed(
             raise _stands_twice(name)
         if name not in header:
             raise _no_column(name, header, separator)
-    kept = [i for i, name in enumerate(header) if (name if wanted is None else name in wanted)]
+    asked = None if wanted is None else {*wanted, *(n for n in header if n.lower() in also)}
+    kept = [i for i, name in enumerate(header) if (name if asked is None else name in asked)]
     kept = [i for i in kept if header[i] not in doubled]
     cells: list[list[str]] = [[] for _ in kept]
     numbers: list[int] = []

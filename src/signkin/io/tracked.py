@@ -53,7 +53,6 @@ def read_mediapipe_csv(
     confidence_threshold is a gap, and so is a row without its landmarks: the hands' tables write
     what was found first, and of one hand do not say which it is.
     """
-    _no_part(part)
     if image_size is None:
         raise SignkinError(
             "coordinates from 0 to 1, and no size of the image",
@@ -118,7 +117,6 @@ def read_openpose_csv(
     last one's confidence may be missing. 0, 0 or confidence 0 is a gap. image_size: for
     coordinates from 0 to 1.
     """
-    _no_part(part)
     layout = Layout(separator, decimal, header_rows=0)
     first = _header(path, layout, 1)[0]
     width = len(first)
@@ -178,7 +176,9 @@ def read_deeplabcut_csv(
         raise SignkinError(
             f"{len(people)} individuals", place="part", expected=f"one of {listed(people)}"
         )
-    if part is not None and part not in people:
+    if len(people) < 2:
+        part = None
+    elif part not in people:
         raise SignkinError(
             f"no individual {quoted(part)}", place="part", expected=listed(p for p in people if p)
         )
@@ -233,13 +233,6 @@ def _check_index(table: pd.DataFrame) -> None:
                 place=f"line {table.index[i] + FIRST_LINE}",
                 expected="frame numbers that rise by 1",
             )
-
-
-def _no_part(part: str | None) -> None:
-    if part is not None:
-        raise SignkinError(
-            f"the part is {quoted(part)}", place="part", expected="nothing: a file is one recording"
-        )
 
 
 def _once(names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int]]:

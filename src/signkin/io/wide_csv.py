@@ -6,6 +6,7 @@ Two columns make a flat recording (the third coordinate is 0).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from signkin.errors import SignkinError
+from signkin.errors import SignkinError, listed
 from signkin.io.points import Points, source_motion
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import (
@@ -26,7 +27,7 @@ from signkin.io.table import (
     read_text_table,
     rows_of_part,
 )
-from signkin.io.text import quoted
+from signkin.io.text import number, quoted
 from signkin.recording import Recording
 
 __all__ = [
@@ -44,6 +45,11 @@ __all__ = [
 # Noise is written with digits this much finer than its standard deviation, so that the file's last
 # digit adds nothing to it.
 NOISE_PER_DIGIT = 1000
+# Columns that tell, by name and without being declared, whether rows follow one another.
+_FRAMES = ("frame", "frames", "frame_number", "frame#", "frame_no", "frame_id", "frame_index")
+_OWNERS = ("person", "person_id", "subject", "participant", "signer", "individual", "track_id",
+           "video", "take", "recording", "trial", "session", "clip")  # fmt: skip
+_TELLING = frozenset({*_FRAMES, *_OWNERS})
 
 
 @motion_reader("csv", suffixes=(".csv", ".tsv"))
@@ -101,7 +107,9 @@ def read_wide_csv(
     layout = Layout(separator, decimal, skip_rows, header_rows, encoding, missing_texts(missing))
     others = [c for c in (recording_column, frame_column, time_column) if c is not None]
     wanted = [*others, *trust.values(), *(c for columns in of_joint.values() for c in columns)]
-    rows = rows_of_part(read_text_table(path, layout, wanted), recording_column, part)
+    table = read_text_table(path, layout, wanted, also=_TELLING)
+    rows = rows_of_part(table, recording_column, part)
+    _check_telling(rows, others)
     if frame_column is not None:
         frames = column_numbers(rows, frame_column)
         order = np.argsort(frames, kind="stable")
@@ -130,6 +138,38 @@ def read_wide_csv(
         image_size=image_size,
         velocities=velocities,
     )
+
+
+def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
+    """Refuse a table whose undeclared columns say that its rows are not one recording's frames.
+
+    A person or take that changes, and frame numbers that do not rise evenly.
+    """
+    for column in rows.columns:
+        name = str(column).strip().lower()
+        if column in declared or name not in _TELLING:
+            continue
+        if name in _OWNERS:
+            owners = rows[column].unique()
+            if len(owners) > 1:
+                raise SignkinError(
+                    f"{len(owners)} values in the column {column}: {listed(owners, 3)}",
+                    place=f"line {rows.index[rows[column] != owners[0]][0] + FIRST_LINE}",
+                    expected="one recording",
+                    todo=f"Declare options: {{recording_column: {column}}}, and `part`.",
+                )
+            continue
+        frames = [number(cell.strip()) for cell in rows[column]]
+        steps = [None if a is None or b is None else b - a for a, b in itertools.pairwise(frames)]
+        usual = steps[0] if steps else None
+        wrong = next((i for i, s in enumerate(steps) if s is None or s <= 0 or s != usual), None)
+        if wrong is not None and all(frame is not None for frame in frames):
+            raise SignkinError(
+                f"{column} {frames[wrong + 1]:g} follows {frames[wrong]:g}",
+                place=f"line {rows.index[wrong + 1] + FIRST_LINE}",
+                expected="frames that rise evenly, or several recordings that are told apart",
+                todo=f"Declare options: {{frame_column: {column}}}, or recording_column.",
+            )
 
 
 def missing_texts(missing: Any) -> tuple[str, ...]:
