@@ -56,9 +56,7 @@ def clock_of(
     uneven = not mean > 0
     if not uneven:
         even = times_s[0] + np.arange(len(times_s)) * mean
-        # Three times in tenths of a second tell nothing; twenty that lie on one line do.
-        told = 2 * half_digit_s <= (1.0 if len(times_s) >= 20 else 0.5) * mean
-        rounding = 2 * half_digit_s if told else 0.0
+        rounding = 2 * half_digit_s if _is_rounded(steps, mean, half_digit_s) else 0.0
         off = np.abs(steps - mean) > CLOCK_TOLERANCE * mean + rounding
         # Small steps off add up: no time may be more than half a frame from where it belongs.
         drift = np.abs(times_s - even) > 0.5 * mean + rounding
@@ -80,6 +78,20 @@ def clock_of(
     low = (len(times_s) - 1) / (span + 2 * half_digit_s)
     high = (len(times_s) - 1) / max(span - 2 * half_digit_s, 1e-12)
     return Clock(rate, (low, high), float(times_s[0]))
+
+
+def _is_rounded(steps: NDArray[np.float64], mean: float, half_digit_s: float) -> bool:
+    """Return whether rounding may explain that steps differ, rather than lost frames.
+
+    A digit of up to half a step cannot hide a lost frame, which doubles one. Coarser than that,
+    60 Hz in hundredths has a third of short steps, and 100 Hz with a lost frame one long step.
+    """
+    digit = 2 * half_digit_s
+    if digit <= 0.5 * mean:
+        return True
+    short = np.count_nonzero(steps < mean)
+    rarer = min(short, len(steps) - short)
+    return bool(digit <= mean and len(steps) >= 20 and rarer >= 0.1 * len(steps))
 
 
 def no_rate_of_motion(rate_hz: float, place: str) -> SignkinError:

@@ -17,6 +17,7 @@ from signkin.errors import SignkinError, listed
 from signkin.io.text import NOT_A_NUMBER, half_digit, number, quoted, text_lines
 
 _CHANNELS = ("Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation")
+_WORDS = ("{", "}", "ROOT", "JOINT", "END", "OFFSET", "CHANNELS", "MOTION")
 _CHANNEL_OF = {name.lower(): name for name in _CHANNELS}
 # Angles and lengths beyond this are broken numbers, for which a sine has no digits left.
 _LARGEST = 1e9
@@ -63,6 +64,7 @@ def parse_bvh(
 
 
 def parse(path: Path, encoding: str | None) -> Parsed:
+    """Return what a BVH file says; errors name the line."""
     lines = list(text_lines(path, encoding))
     hierarchy, line = _parse_hierarchy(lines)
     header = _parse_motion_header(lines, line)
@@ -144,7 +146,7 @@ def _parse_hierarchy(lines: list[str]) -> tuple[Hierarchy, int]:
             offsets.append(None)
             channels.append(None)
         elif keyword == "OFFSET" and open_joints and offsets[open_joints[-1]] is None:
-            found = [words.take() for _ in range(3) if words.peek() not in (None, "{", "}")]
+            found = [words.take() for _ in range(3) if (words.peek() or "}").upper() not in _WORDS]
             offsets[open_joints[-1]] = _numbers(found, 3, words.line, gaps=False)
         elif keyword == "CHANNELS" and open_joints and channels[open_joints[-1]] is None:
             channels[open_joints[-1]] = _channel_names(words)
@@ -186,7 +188,7 @@ def _channel_names(words: _Words) -> tuple[str, ...]:
         while len(found) < int(count) and (words.peek() or "").lower() in _CHANNEL_OF:
             found.append(words.take())
     while words.same_line() and words.peek() not in ("{", "}"):
-        if (words.peek() or "").upper() in ("OFFSET", "JOINT", "END", "MOTION"):
+        if (words.peek() or "").upper() in _WORDS:
             break
         found.append(words.take())
     unknown = [name for name in found if name.lower() not in _CHANNEL_OF]

@@ -145,11 +145,12 @@ def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
 
     A person or take that changes, and frame numbers that do not rise evenly.
     """
-    for column in rows.columns:
-        name = str(column).strip().lower()
-        if column in declared or name not in _TELLING:
+    telling = [column for column in rows.columns if column.lower() in _TELLING]
+    telling.sort(key=lambda column: column.lower() in _FRAMES)  # whose frames they are comes first
+    for column in telling:
+        if column in declared:
             continue
-        if name in _OWNERS:
+        if column.lower() in _OWNERS:
             owners = rows[column].unique()
             if len(owners) > 1:
                 raise SignkinError(
