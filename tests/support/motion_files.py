@@ -190,6 +190,8 @@ def write_openpose_json(path: Path, x: np.ndarray) -> None:
         for place, point in zip((4, 7, 3), frame, strict=True):
             body[place] = [*point, 0.8]
         person = {"person_id": [-1], "pose_keypoints_2d": body.ravel().tolist()}
+        for part, count in (("face", 70), ("hand_left", 21), ("hand_right", 21)):
+            person[f"{part}_keypoints_2d"] = [0.0] * (3 * count)
         text = json.dumps({"version": 1.3, "people": [person]})
         (path / f"v_{i:012d}_keypoints.json").write_text(text)
 
