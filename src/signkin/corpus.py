@@ -173,6 +173,8 @@ def _read_yaml(path: Path) -> dict[str, Any]:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    except UnicodeDecodeError as error:
+        raise _not_utf8(path, error) from error
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = None if mark is None else f"line {mark.line + 1}"
@@ -181,6 +183,16 @@ def _read_yaml(path: Path) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise SignkinError("no keys", file=path, expected="a mapping of keys to values")
     return content
+
+
+def _not_utf8(path: Path, error: UnicodeDecodeError) -> SignkinError:
+    return SignkinError(
+        f"byte 0x{error.object[error.start]:02x} is not UTF-8",
+        file=path,
+        place=f"line {error.object[: error.start].count(10) + 1}",
+        expected="text in UTF-8",
+        todo="Save the file as UTF-8.",
+    )
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
@@ -235,6 +247,8 @@ def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, st
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    except UnicodeDecodeError as error:
+        raise _not_utf8(path, error) from error
     seen: dict[str, int] = {}
     reader = csv.DictReader(text.splitlines(), strict=True)
     for row in reader:
