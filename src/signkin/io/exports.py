@@ -233,10 +233,11 @@ def read_motive_csv(
         for i, name in enumerate(names)
     ]
     labels, columns = _triples(at_position, cells, line)
-    rate = number(told.get("Export Frame Rate", "").replace(",", "."))
+    printed = told.get("Export Frame Rate") or told.get("Capture Frame Rate") or ""
+    rate = number(printed.replace(",", "."))
     if rate is None or not rate > 0:
         raise SignkinError(
-            f"Export Frame Rate is {quoted(told.get('Export Frame Rate', ''))}",
+            f"Export Frame Rate is {quoted(printed)}",
             place="line 1",
             expected="a number of Hz",
         )
