@@ -1,6 +1,20 @@
 """Reading and writing of recordings and annotations; a format is one file."""
 
-from signkin.io import bvh, eaf, kinect, pose, tsd, wide_csv, words_csv
+from signkin.io import (
+    bvh,
+    c3d,
+    eaf,
+    exports,
+    keypoints,
+    kinect,
+    openpose_json,
+    pose,
+    tracked,
+    trc,
+    tsd,
+    wide_csv,
+    words_csv,
+)
 from signkin.io.registry import (
     annotation_formats,
     motion_formats,
@@ -11,12 +25,18 @@ from signkin.io.registry import (
 __all__ = [
     "annotation_formats",
     "bvh",
+    "c3d",
     "eaf",
+    "exports",
+    "keypoints",
     "kinect",
     "motion_formats",
+    "openpose_json",
     "pose",
     "read_annotation",
     "read_recording",
+    "tracked",
+    "trc",
     "tsd",
     "wide_csv",
     "words_csv",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +12,7 @@ import pandas as pd
 
 from signkin import tables
 from signkin.annotation import Annotation
-from signkin.corpus import Corpus, Entry, check_checksum
+from signkin.corpus import Corpus, Entry, check_checksum, data_file
 from signkin.errors import SignkinError
 from signkin.io import read_annotation, read_recording
 from signkin.kinematics.rotations import with_limb_frames
@@ -37,21 +38,27 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
     """Read the recordings of a shard with their tags.
 
     A recording that cannot be used ends the run, or, where the corpus says `on_error: skip`,
-    is left out and listed.
+    is left out and listed, whatever went wrong in it or its tags.
     """
     out = Ingested()
-    for name in dict.fromkeys(n for e in entries for n in (e.motion, e.annotation) if n):
-        check_checksum(corpus, folder, name)
+    checked: set[str] = set()
     for entry in entries:
         try:
+            for name in (entry.motion, entry.annotation):
+                if name and name not in checked:
+                    if corpus.simulator is None:
+                        data_file(corpus, folder, entry, name)
+                    check_checksum(corpus, folder, name)
+                    checked.add(name)
             recording, annotation = read_entry(corpus, folder, entry)
-        except SignkinError as error:
+            intervals = _interval_rows(corpus, entry, annotation)
+            about = _about(corpus, entry, recording, annotation, intervals)
+        except Exception as error:
             out.excluded.append(excluded_row(corpus, entry.recording, "reading", error))
             continue
         out.recordings.append(recording)
-        intervals = _interval_rows(corpus, entry, annotation)
         out.intervals += intervals
-        out.about.append(_about(corpus, entry, recording, annotation, intervals))
+        out.about.append(about)
     if not out.recordings:
         raise SignkinError(
             f"none of {len(entries)} recordings can be used; the first: "
@@ -68,11 +75,19 @@ def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, A
     return recording, _annotation(corpus, folder, entry, recording)
 
 
-def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError) -> dict[str, Any]:
-    """Return the row that lists a recording as left out, or raise where that is not allowed."""
-    if corpus.settings.get("on_error", "stop") != "skip":
+def excluded_row(corpus: Corpus, recording: str, stage: str, error: Exception) -> dict[str, Any]:
+    """Return the row that lists a recording as left out, or raise where that is not allowed.
+
+    What is no SignkinError is a fault of this package: it is listed with its kind, and its
+    traceback stands in the log.
+    """
+    if not corpus.skips:
         raise error
-    return {**lead(corpus, recording), "stage": stage, "reason": str(error)}
+    reason = str(error)
+    if not isinstance(error, SignkinError):
+        traceback.print_exception(error)
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+    return {**lead(corpus, recording), "stage": stage, "reason": reason}
 
 
 def lead(corpus: Corpus, recording: str) -> dict[str, str]:
@@ -83,6 +98,13 @@ def lead(corpus: Corpus, recording: str) -> dict[str, str]:
 
 def _recording(corpus: Corpus, folder: Path, entry: Entry) -> Recording:
     recording = read_recording(folder / entry.motion, **corpus.motion_spec(entry))
+    if recording.unit != corpus.unit:
+        raise SignkinError(
+            f"the positions are in {recording.unit}",
+            file=folder / entry.motion,
+            place="key motion.unit",
+            expected=f"unit: {recording.unit} in corpus.yaml",
+        )
     wanted = corpus.settings["motion"].get("orientations", "none")
     try:
         if wanted == "limb_frames":
@@ -162,4 +184,5 @@ def _about(
         "times_interpolated": annotation.interpolated if annotation else 0,
         "motion_file": entry.motion,
         "annotation_file": entry.annotation,
+        "notes": " | ".join(recording.notes),
     }

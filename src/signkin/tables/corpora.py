@@ -24,6 +24,7 @@ TABLES = (
             Column("times_interpolated", "", "open times of the annotation, interpolated"),
             text("motion_file", "file of the motion, in the corpus's data folder"),
             text("annotation_file", "file of the annotation"),
+            text("notes", "what was decided in reading the motion (an overruled rate, ...)"),
         ),
     ),
     Table(
