@@ -8,7 +8,8 @@ A format is one file in this folder: it registers a function with
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from signkin.annotation import Annotation
+from signkin.annotation import Annotation, TierWish
+from signkin.annotation_rules import GlossRules, excerpt
 from signkin.errors import SignkinError, listed
 from signkin.recording import Recording
 
@@ -135,20 +137,51 @@ def read_recording(
 def read_annotation(
     path: str | Path,
     *,
-    tiers: tuple[str, ...] | None = None,
+    tiers: str | Sequence[TierWish] | None = None,
     name: str | None = None,
     format: str | None = None,
     part: str | None = None,
+    gloss: Mapping[str, Any] | None = None,
+    from_s: float = 0.0,
+    to_s: float | None = None,
+    clock_offset_s: float = 0.0,
     **options: Any,
 ) -> Annotation:
-    """Read the intervals of the named tiers (None: all); times in seconds from the start.
+    """Read the intervals of tiers (None: all); times in seconds from the recording's start.
+
+    path: the file; its suffix tells the format unless `format` does.
+    tiers: names, or mappings with `pattern` (`Gloss*`) and `participant`.
+    gloss: rules for labels, `{strip: ["*"], merge: {HOUSE1: HOUSE}}`; see `GlossRules`.
+    from_s, to_s: the stretch of the file's time that the recording is; from_s becomes 0.
+    clock_offset_s: added to the file's times besides.
+    options: what the format wants to know besides (see its module).
 
     Raises SignkinError with the file and the tier.
     """
     path = Path(path)
     reader = _find(_ANNOTATION, path, format, "annotation")
-    annotation: Annotation = _guarded(reader, path, tiers=tiers, name=name, part=part, **options)
-    return annotation
+    _check_options(reader, options, path)
+    asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
+    annotation: Annotation = _guarded(reader, path, tiers=asked, name=name, part=part, **options)
+    try:
+        annotation = excerpt(annotation, from_s, to_s, clock_offset_s)
+        return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
+    except SignkinError as error:
+        raise error.at(file=path) from error
+
+
+def _check_options(reader: AnnotationReader, options: Mapping[str, Any], path: Path) -> None:
+    """Refuse an option that the format does not have; the error lists those it has."""
+    shared = ("path", "tiers", "name", "part")
+    known = [name for name in inspect.signature(reader).parameters if name not in shared]
+    for option in options:
+        if option not in known:
+            raise SignkinError(
+                f"no option {option!r}",
+                file=path,
+                place="key annotation.options",
+                expected=listed(known) if known else "no option",
+            )
 
 
 def in_file_axes(
