@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any
 
-from signkin.annotation import Annotation, Interval, LeftOut
+from signkin.annotation import Annotation, Interval, LeftOut, TierWish, tier_key
 from signkin.errors import SignkinError
 
 
@@ -17,11 +18,13 @@ def excerpt(
     from_s: float = 0.0,
     to_s: float | None = None,
     clock_offset_s: float = 0.0,
+    clip: Sequence[TierWish] = (),
 ) -> Annotation:
     """Return the stretch of an annotation that a recording covers, in the recording's time.
 
     from_s, to_s: in the annotation's time; from_s becomes 0. clock_offset_s: added besides.
-    Intervals that do not lie inside the stretch as a whole are left out and listed.
+    Intervals that do not lie inside the stretch as a whole are left out and listed; those of
+    the tiers of `clip` are cut at its ends.
     """
     if from_s == 0.0 and to_s is None and clock_offset_s == 0.0:
         return annotation
@@ -41,7 +44,10 @@ def excerpt(
     cut = from_s != 0.0 or to_s is not None
     shift = clock_offset_s - from_s
     kept, left_out = [], list(annotation.left_out)
+    clipped = {name for wish in clip for name in annotation.chosen.get(tier_key(wish), ())}
     for i in annotation.intervals:
+        if cut and i.tier in clipped and i.end_s > from_s and i.start_s < last:
+            i = replace(i, start_s=max(i.start_s, from_s), end_s=min(i.end_s, last))
         if cut and not (from_s - 1e-9 <= i.start_s and i.end_s <= last + 1e-9):
             where = "outside" if i.end_s <= from_s or i.start_s >= last else "partly outside"
             place = f"{i.label[:40]!r} at {i.start_s:.3f} s"
@@ -120,6 +126,46 @@ class GlossRules:
             written = "" if gloss == interval.label else interval.label
             intervals.append(replace(interval, label=gloss, written=interval.written or written))
         return replace(annotation, intervals=tuple(intervals))
+
+
+def signs_of_hands(
+    by_hand: Mapping[str, Sequence[Interval]], dominant: str = "right"
+) -> tuple[tuple[Interval, ...], tuple[LeftOut, ...]]:
+    """Return one sequence of signs from the tiers of both hands, and what has no place in it.
+
+    by_hand: intervals of `right`, `left` and `both`; dominant: the signer's stronger hand.
+    The dominant hand's signs and those of both hands come first. A sign of the other hand
+    counts as one where the first are at rest; with the same gloss at the same time it is the
+    two-handed sign that is there already; during another gloss it is left out and listed.
+    """
+    unknown = [hand for hand in by_hand if hand not in ("right", "left", "both")]
+    if unknown or dominant not in ("right", "left"):
+        raise SignkinError(
+            f"hands {unknown or dominant!r}", place="hands", expected="right, left or both"
+        )
+    other = "left" if dominant == "right" else "right"
+    signs = sorted([*by_hand.get("both", ()), *by_hand.get(dominant, ())])
+    starts = [sign.start_s for sign in signs]
+    longest = max((sign.end_s - sign.start_s for sign in signs), default=0.0)
+    alone, left_out = [], []
+    for mine in sorted(by_hand.get(other, ())):
+        # At the same time: more than half of the shorter of the two.
+        first = bisect_left(starts, mine.start_s - longest)
+        last = bisect_left(starts, mine.end_s)
+        during = [sign for sign in signs[first:last] if _overlap(mine, sign) > 0.5]
+        if not during:
+            alone.append(mine)
+        elif all(sign.label != mine.label for sign in during):
+            place = f"{mine.label[:40]!r} at {mine.start_s:.3f} s"
+            told = f"the {other} hand's, during {during[0].label[:40]!r} of the dominant hand"
+            left_out.append(LeftOut(mine.tier, place, told))
+    return tuple(sorted([*signs, *alone])), tuple(left_out)
+
+
+def _overlap(a: Interval, b: Interval) -> float:
+    """Return the time that two intervals share, as a part of the shorter one."""
+    shared = min(a.end_s, b.end_s) - max(a.start_s, b.start_s)
+    return shared / min(a.end_s - a.start_s, b.end_s - b.start_s)
 
 
 def labels_to_intervals(

@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
+from pathlib import Path
 
 from signkin.annotation import Annotation, Interval, LeftOut, TierWish, tier_key
 from signkin.errors import SignkinError, listed
 
 DIGITS = 9  # of seconds: finer than any clock, coarse enough to hide sums of floats
 WISH_KEYS = ("pattern", "participant")
+
+
+def annotation_options(reader: Callable[..., Annotation]) -> list[str]:
+    """Return the options of a format: its reader's parameters besides those all readers have."""
+    shared = ("path", "tiers", "name", "part")
+    return [name for name in inspect.signature(reader).parameters if name not in shared]
+
+
+def check_annotation_options(
+    reader: Callable[..., Annotation], given: Mapping[str, object], path: Path
+) -> None:
+    """Refuse an option that the format does not have; the error lists those it has."""
+    known = annotation_options(reader)
+    for option in given:
+        if option not in known:
+            raise SignkinError(
+                f"no option {option!r}",
+                file=path,
+                place="key annotation.options",
+                expected=listed(known) if known else "no option",
+            )
 
 
 @dataclass(frozen=True)

@@ -19,12 +19,12 @@ from urllib.parse import unquote
 from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
 from signkin.io.collecting import Collected, TierName, choose_tiers
-from signkin.io.eaf_write import WHOLE, NewTier, insert_tiers, write_eaf
+from signkin.io.eaf_write import WHOLE, NewTier, elan_copy, insert_tiers, write_eaf
 from signkin.io.open_slots import fill_open
 from signkin.io.registry import annotation_reader
 from signkin.io.xml_tree import Element, parse
 
-__all__ = ["NewTier", "clock_offset_s", "insert_tiers", "read_eaf", "write_eaf"]
+__all__ = ["NewTier", "clock_offset_s", "elan_copy", "insert_tiers", "read_eaf", "write_eaf"]
 
 # Seconds of one unit of TIME_VALUE, by the header's TIME_UNITS.
 SECONDS_PER_UNIT = {"milliseconds": 0.001, "PAL-frames": 0.04, "NTSC-frames": 1001 / 30000}

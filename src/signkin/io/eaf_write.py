@@ -269,6 +269,35 @@ def _inserted(
     return bytes(out + document.content[done:])
 
 
+def elan_copy(
+    path: Path,
+    tiers: Sequence[NewTier],
+    *,
+    elan: bool,
+    clock_offset_s: float,
+    tags: Sequence[Interval],
+    media_url: str,
+) -> bytes:
+    """Return an ELAN file with a recording's tags and new tiers.
+
+    elan: whether the annotation at `path` is one, which is then copied with the tiers inserted.
+    Else a new file is made of `tags` (all of the recording, in its clock), with the motion's file
+    as its medium. Errors name the file.
+    """
+    try:
+        if elan:
+            return insert_tiers(path.read_bytes(), tiers, clock_offset_s)
+        names = dict.fromkeys(tag.tier for tag in tags)
+        own = [(name, None, [tag for tag in tags if tag.tier == name]) for name in names]
+        # No date: the same input gives the same bytes.
+        content = new_eaf(
+            author=MARK, date="1970-01-01T00:00:00+00:00", media_url=media_url, tiers=own
+        )
+        return insert_tiers(content, tiers)
+    except SignkinError as error:
+        raise error.at(file=path) from error
+
+
 # --- new files -----------------------------------------------------------------------------------
 
 _NEW = (

@@ -8,7 +8,6 @@ A format is one file in this folder: it registers a function with
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +20,7 @@ from scipy.spatial.transform import Rotation
 from signkin.annotation import Annotation, TierWish
 from signkin.annotation_rules import GlossRules, excerpt
 from signkin.errors import SignkinError, listed
+from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.recording import Recording
 
 METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -84,6 +84,11 @@ def annotation_formats() -> tuple[str, ...]:
     return tuple(sorted(_ANNOTATION))
 
 
+def wants_rate(format: str) -> bool:
+    """Whether an annotation format counts in frames of the motion (option `rate_hz`)."""
+    return format in _ANNOTATION and "rate_hz" in annotation_options(_ANNOTATION[format][0])
+
+
 def read_recording(
     path: str | Path,
     *,
@@ -145,6 +150,7 @@ def read_annotation(
     from_s: float = 0.0,
     to_s: float | None = None,
     clock_offset_s: float = 0.0,
+    clip: Sequence[TierWish] = (),
     **options: Any,
 ) -> Annotation:
     """Read the intervals of tiers (None: all); times in seconds from the recording's start.
@@ -154,34 +160,22 @@ def read_annotation(
     gloss: rules for labels, `{strip: ["*"], merge: {HOUSE1: HOUSE}}`; see `GlossRules`.
     from_s, to_s: the stretch of the file's time that the recording is; from_s becomes 0.
     clock_offset_s: added to the file's times besides.
+    clip: tiers (of utterances, say) whose intervals are cut at the ends of that stretch, where
+    those of other tiers are left out and listed.
     options: what the format wants to know besides (see its module).
 
     Raises SignkinError with the file and the tier.
     """
     path = Path(path)
     reader = _find(_ANNOTATION, path, format, "annotation")
-    _check_options(reader, options, path)
+    check_annotation_options(reader, options, path)
     asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
     annotation: Annotation = _guarded(reader, path, tiers=asked, name=name, part=part, **options)
     try:
-        annotation = excerpt(annotation, from_s, to_s, clock_offset_s)
+        annotation = excerpt(annotation, from_s, to_s, clock_offset_s, clip)
         return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
     except SignkinError as error:
         raise error.at(file=path) from error
-
-
-def _check_options(reader: AnnotationReader, options: Mapping[str, Any], path: Path) -> None:
-    """Refuse an option that the format does not have; the error lists those it has."""
-    shared = ("path", "tiers", "name", "part")
-    known = [name for name in inspect.signature(reader).parameters if name not in shared]
-    for option in options:
-        if option not in known:
-            raise SignkinError(
-                f"no option {option!r}",
-                file=path,
-                place="key annotation.options",
-                expected=listed(known) if known else "no option",
-            )
 
 
 def in_file_axes(

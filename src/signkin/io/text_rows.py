@@ -109,14 +109,22 @@ class TextTable:
 
 
 def read_table(
-    path: Path, wanted: Sequence[str], separator: str | None = None, encoding: str | None = None
+    path: Path,
+    wanted: Sequence[str],
+    separator: str | None = None,
+    encoding: str | None = None,
+    *,
+    keep_blank: bool = False,
 ) -> TextTable:
     """Read a table with a header row; a file is parsed once, however often asked for.
 
     wanted: columns that tell the separator (comma, semicolon or tab) where none is declared.
+    keep_blank: a row without any text counts, where rows are frames.
     """
     state = path.stat()
-    return _parsed(path, tuple(wanted), separator, encoding, state.st_mtime_ns, state.st_size)
+    return _parsed(
+        path, tuple(wanted), separator, encoding, keep_blank, state.st_mtime_ns, state.st_size
+    )
 
 
 @lru_cache(maxsize=4)
@@ -125,12 +133,13 @@ def _parsed(
     wanted: tuple[str, ...],
     separator: str | None,
     encoding: str | None,
+    keep_blank: bool,
     mtime_ns: int,
     size: int,
 ) -> TextTable:
     text = read_text(path, encoding)
     head = next((line for line in text.split("\n") if line.strip()), "")
-    rows = split_rows(text, separator or _separator(head, wanted))
+    rows = split_rows(text, separator or _separator(head, wanted), keep_blank=keep_blank)
     if not rows:
         raise SignkinError("nothing in it", place="line 1", expected="a header and rows")
     columns = tuple(cell.strip() for cell in rows[0].cells)
@@ -146,18 +155,22 @@ def _parsed(
     return TextTable(columns, tuple(rows[1:]))
 
 
-def split_rows(text: str, separator: str) -> list[Row]:
-    """Return the rows of a text that are not blank, with the line each starts in."""
+def split_rows(text: str, separator: str, *, keep_blank: bool = False) -> list[Row]:
+    """Return the rows of a text, with the line each starts in; blank ones if they count.
+
+    An empty line has one empty cell.
+    """
     if not isinstance(separator, str) or len(separator) != 1 or separator in '"\n':
         raise SignkinError(
             f"the separator is {separator!r}", place="separator", expected="one character"
         )
     rows, before = [], 0
-    reader = csv.reader(text.split("\n"), delimiter=separator, strict=True)
+    lines = (f"{line}\n" for line in text.removesuffix("\n").split("\n"))
+    reader = csv.reader(lines, delimiter=separator, strict=True)
     try:
         for cells in reader:
-            if any(cell.strip() for cell in cells):
-                rows.append(Row(before + 1, tuple(cells)))
+            if keep_blank or any(cell.strip() for cell in cells):
+                rows.append(Row(before + 1, tuple(cells) or ("",)))
             before = reader.line_num
     except csv.Error as error:
         raise SignkinError(

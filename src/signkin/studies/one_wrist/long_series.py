@@ -29,13 +29,13 @@ from signkin.errors import SignkinError
 from signkin.figures import binning as drawing
 from signkin.figures.one_wrist import plot_excerpt
 from signkin.figures.style import WIDTH_IN
-from signkin.io.eaf import NewTier, insert_tiers
+from signkin.io.eaf import NewTier, elan_copy
 from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps
 from signkin.recording import Recording
 from signkin.seeds import stream
-from signkin.stages.ingest import lead
+from signkin.stages.ingest import lead, tags_of
 from signkin.studies.endres2013.posteriors import boundary_times, explained_variance, prior_of
 from signkin.studies.endres2013.single_signs import in_bins
 
@@ -405,15 +405,26 @@ def tiers(found: pd.DataFrame, recording: str) -> list[NewTier]:
     return out
 
 
-def copies(folder: Path, about: pd.DataFrame, found: pd.DataFrame) -> dict[str, bytes]:
-    """Return, by file name, each ELAN file with a tier of segments for each hand."""
-    out = {}
-    for row in about.itertuples(index=False):
-        path = folder / str(row.annotation_file)
-        try:
-            out[f"{row.recording}.eaf"] = insert_tiers(
-                path.read_bytes(), tiers(found, str(row.recording)), float(row.clock_offset_s)
-            )
-        except SignkinError as error:
-            raise error.at(file=path) from error
-    return out
+def copies(
+    folder: Path,
+    about: pd.DataFrame,
+    found: pd.DataFrame,
+    intervals: pd.DataFrame,
+    *,
+    elan: bool = True,
+) -> dict[str, bytes]:
+    """Return, by file name, each ELAN file with a tier of segments for each hand.
+
+    intervals: table of this name; elan: whether the originals are ELAN files.
+    """
+    return {
+        f"{row.recording}.eaf": elan_copy(
+            folder / str(row.annotation_file),
+            tiers(found, str(row.recording)),
+            elan=elan,
+            clock_offset_s=float(row.clock_offset_s),
+            tags=tags_of(intervals, str(row.recording)),
+            media_url=str(row.motion_file),
+        )
+        for row in about.itertuples(index=False)
+    }
