@@ -126,8 +126,8 @@ def test_deleted_tiers_leave_a_type_that_is_used_again():
 
 def test_a_type_of_that_name_that_cannot_hold_the_tiers_is_left_alone():
     copy = saved_by_elan(insert_tiers(original(), NEW), drop=NAMES).decode()
-    copy = copy.replace(f'LINGUISTIC_TYPE_ID="{LINGUISTIC_TYPE}"',
-                        f'CONSTRAINTS="Included_In" LINGUISTIC_TYPE_ID="{LINGUISTIC_TYPE}"')  # fmt: skip
+    name = f'LINGUISTIC_TYPE_ID="{LINGUISTIC_TYPE}"'
+    copy = copy.replace(name, f'CONSTRAINTS="Included_In" {name}')
     after = insert_tiers(copy.encode(), NEW)
     assert broken(after) == []
     assert f'LINGUISTIC_TYPE_REF="{LINGUISTIC_TYPE}-2"' in after.decode()
@@ -193,8 +193,8 @@ def test_a_label_that_xml_cannot_hold_is_refused():
 
 def test_tags_that_are_not_elan_become_elan(tmp_path):
     (tmp_path / "a.csv").write_text("start,end,label\n")
-    about = pd.DataFrame({"recording": ["r"], "annotation_file": ["a.csv"], "motion_file": ["m.bvh"],
-                          "clock_offset_s": [-2.0]})  # fmt: skip
+    about = pd.DataFrame({"recording": ["r"], "annotation_file": ["a.csv"],
+                          "motion_file": ["m.bvh"], "clock_offset_s": [-2.0]})  # fmt: skip
     edges = [("start", 0.12), ("end", 0.44)]
     boundaries = pd.DataFrame(
         [{"recording": "r", "hand": hand, "sign": 1, "gloss": "A", "edge": edge, "refined_s": t}

@@ -16,7 +16,7 @@ from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
 from signkin.io.collecting import Collected, TierName, choose_tiers
 from signkin.io.registry import annotation_reader
-from signkin.io.text_rows import Row, TimeFormat, read_text, split_rows
+from signkin.io.text_rows import Row, TimeFormat, read_text
 
 _SPELLINGS = {
     "ms": re.compile(r"-?[0-9]+"),
@@ -40,10 +40,13 @@ def read_elan_tab(
     encoding: str | None = None,
 ) -> Annotation:
     """Read tiers of an export; None reads every tier."""
+    # ELAN puts no quotes around cells. Media and their offsets are remarks at the start.
     lines = read_text(path, encoding).split("\n")
-    # ELAN writes the media and their offsets as remarks. Blanked, so that lines keep their number.
-    plain = "\n".join("" if re.match(r'"?#', line) else line for line in lines)
-    rows = split_rows(plain.replace('"', '""') if _has_bare_quotes(plain) else plain, "\t")
+    rows = [
+        Row(number, tuple(line.split("\t")))
+        for number, line in enumerate(lines, start=1)
+        if line.strip() and not re.match(r'"?#', line)
+    ]
     if not rows:
         raise SignkinError("nothing in it", place="line 1", expected=EXPECTED)
     found = _with_header(rows) if _is_header(rows[0]) else _without_header(rows)
@@ -54,11 +57,6 @@ def read_elan_tab(
         if tag.tier in wanted:
             collected.add(tag.start_s, tag.end_s, tag.text, tag.tier, f"line {tag.line}")
     return collected.annotation(name or path.stem, tiers, chosen)
-
-
-def _has_bare_quotes(text: str) -> bool:
-    """Whether quotes are part of the text: ELAN puts none around cells."""
-    return not re.search(r'(^|\t)"[^"\n]*\n[^"]*"(\t|$)', text, re.MULTILINE)
 
 
 @dataclass(frozen=True)
