@@ -111,6 +111,8 @@ class Annotation:
 
     def tier(self, name: str) -> tuple[Interval, ...]:
         """Return the intervals of a tier in order of time; an unknown tier is an error."""
+        if name in self.empty_tiers:
+            return ()
         found = tuple(interval for interval in self.intervals if interval.tier == name)
         if not found:
             raise self._error("tiers", f"no tier {name!r}", listed(self.tiers, 40))
@@ -123,7 +125,7 @@ class Annotation:
 
     def times_s(self, name: str) -> NDArray[np.float64]:
         """Return starts and ends of a tier, (N, 2), in seconds."""
-        return np.array([(i.start_s, i.end_s) for i in self.tier(name)])
+        return np.array([(i.start_s, i.end_s) for i in self.tier(name)]).reshape(-1, 2)
 
     def refuse_past(self, duration_s: float, tolerance_s: float) -> None:
         """Refuse intervals that end after the motion does (by more than a tolerance)."""

@@ -16,7 +16,7 @@ def spans(annotation, tier=None):
     return [(i.label, i.start_s, i.end_s) for i in annotation.intervals if tier in (None, i.tier)]
 
 
-# --- TextGrid ------------------------------------------------------------------------------------
+# --- TextGrid ------------------------------------------------------------
 
 LONG = """File type = "ooTextFile"
 Object class = "TextGrid"
@@ -129,7 +129,7 @@ def test_point_tiers_doubled_names_and_binary_files(tmp_path):
         read_annotation(path)
 
 
-# --- subtitles -----------------------------------------------------------------------------------
+# --- subtitles ------------------------------------------------------------
 
 
 def test_srt(tmp_path):
@@ -176,7 +176,7 @@ def test_what_is_wrong_in_subtitles_is_told_with_its_line(tmp_path, text, told):
         read_annotation(put(tmp_path, "x.srt", text))
 
 
-# --- tables --------------------------------------------------------------------------------------
+# --- tables ------------------------------------------------------------
 
 
 def test_semicolons_decimal_commas_and_timecodes(tmp_path):
@@ -272,7 +272,18 @@ def test_tiers_by_pattern_and_participant(tmp_path):
         read_annotation(path, tiers=({"participnt": "S3"},), **spec)
 
 
-# --- ELAN's text export ----------------------------------------------------------------------------
+def test_two_signers_of_one_tier_are_told_apart(tmp_path):
+    path = put(tmp_path, "x.csv", "start,end,label,tier,who\n0,1,A,G,S1\n1,2,B,G,S2\n2,3,C,H,S2\n")
+    spec = {"tier_column": "tier", "participant_column": "who"}
+    with pytest.raises(SignkinError, match=r"no tier 'G'; expected G \(S1\), G \(S2\), H"):
+        read_annotation(path, tiers="G", **spec)
+    wish = {"pattern": "G", "participant": "S2"}
+    a = read_annotation(path, tiers=(wish,), **spec)
+    assert spans(a) == [("B", 1, 2)]
+    assert read_annotation(path, **spec).tiers == ("G (S1)", "G (S2)", "H")
+
+
+# --- ELAN's text export ------------------------------------------------------------
 
 TAB = (
     '"#file:///a/b.eaf"\n'
@@ -330,7 +341,7 @@ def test_what_is_wrong_in_an_export_is_told_with_its_line(tmp_path, text, told):
         read_annotation(put(tmp_path, "x.txt", text), format="elan_tab")
 
 
-# --- labels of frames ------------------------------------------------------------------------------
+# --- labels of frames ------------------------------------------------------------
 
 
 def test_labels_of_frames(tmp_path):
@@ -352,7 +363,7 @@ def test_labels_of_frames(tmp_path):
         read_annotation(path, format="frame_labels")
 
 
-# --- text and options --------------------------------------------------------------------------
+# --- text and options ------------------------------------------------------------
 
 
 def test_text_of_no_known_encoding_is_refused():

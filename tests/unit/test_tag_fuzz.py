@@ -46,7 +46,7 @@ GRID = (
 FORMATS = {
     "eaf": (ELAN, {"unaligned": "interpolate"}),
     "textgrid": (GRID, {}),
-    "srt": ("1\n00:00:01,000 --> 00:00:02,500\n<i>Ä</i>\n\n2\n00:00:03,000 --> 00:00:04,000\nB: c\n",
+    "srt": ("1\n00:00:01,000 --> 00:00:02,500\n<i>Ä</i>\n\n2\n00:00:03,000 --> 00:00:04,000\nB:c\n",
             {"speaker_before_colon": True}),
     "vtt": ("WEBVTT\n\nNOTE x\n\n1\n00:01.000 --> 00:02.000 align:start\n<v.s Ann>Ä &amp; <b>B</b>"
             "</v><v Bob>C\n\n00:00:03.000 --> 00:00:04.000\nplain\n", {}),

@@ -40,10 +40,27 @@ def check_annotation_options(
 
 @dataclass(frozen=True)
 class TierName:
-    """A tier as a file names it, and whom it belongs to (empty where the file does not say)."""
+    """A tier as a file names it, and whom it belongs to (empty where the file does not say).
+
+    own: the name without the participant, where tiers are told apart by it.
+    """
 
     name: str
     participant: str = ""
+    own: str = ""
+
+
+def told_apart(tiers: Sequence[TierName]) -> list[TierName]:
+    """Return tiers with the participant in the name where several have a tier of that name."""
+    people: dict[str, set[str]] = {}
+    for tier in tiers:
+        people.setdefault(tier.name, set()).add(tier.participant)
+    return [
+        TierName(f"{tier.name} ({tier.participant})", tier.participant, tier.name)
+        if tier.participant and len(people[tier.name]) > 1
+        else tier
+        for tier in tiers
+    ]
 
 
 def choose_tiers(
@@ -100,12 +117,16 @@ def _fulfilling(wish: Mapping[str, str], known: Sequence[TierName]) -> tuple[str
     found = [
         tier.name
         for tier in known
-        if fnmatchcase(_composed(tier.name), pattern)
+        if fnmatchcase(_composed(tier.own or tier.name), pattern)
         and (person is None or _composed(tier.participant) == _composed(str(person)))
     ]
     if not found:
         told = listed(
-            (t.name if not t.participant else f"{t.name} ({t.participant})" for t in known), 60
+            (
+                t.name if t.own or not t.participant else f"{t.name} ({t.participant})"
+                for t in known
+            ),
+            60,
         )
         raise SignkinError(f"no tier with {tier_key(wish)}", place="tiers", expected=told)
     return tuple(dict.fromkeys(found))

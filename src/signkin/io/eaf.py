@@ -222,11 +222,7 @@ class _File:
                     place=f"line {tier.line}",
                     expected="each tier once",
                 )
-            tier.tags = [
-                _tag(e)
-                for annotation in element.all("ANNOTATION")
-                for e in annotation.all("ALIGNABLE_ANNOTATION", "REF_ANNOTATION")
-            ]
+            tier.tags = [_tag(annotation) for annotation in element.all("ANNOTATION")]
             self.tiers[tier.name] = tier
 
     def _add_slot(self, slot: Element) -> None:
@@ -245,7 +241,15 @@ def _is(constraint: str | None, kind: str) -> bool:
     return constraint is not None and constraint.lower() == f"symbolic_{kind}"
 
 
-def _tag(element: Element) -> Tag:
+def _tag(annotation: Element) -> Tag:
+    inside = annotation.all("ALIGNABLE_ANNOTATION", "REF_ANNOTATION")
+    if len(inside) != 1:
+        raise SignkinError(
+            f"an ANNOTATION holds {len(inside)} annotations",
+            place=f"line {annotation.line}",
+            expected="one, ALIGNABLE_ANNOTATION or REF_ANNOTATION",
+        )
+    element = inside[0]
     values = element.all("ANNOTATION_VALUE")
     value = None if not values else values[0].text
     key = element.get("ANNOTATION_ID") or "without id"

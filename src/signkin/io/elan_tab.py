@@ -14,7 +14,7 @@ from pathlib import Path
 
 from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
-from signkin.io.collecting import Collected, TierName, choose_tiers
+from signkin.io.collecting import Collected, TierName, choose_tiers, told_apart
 from signkin.io.registry import annotation_reader
 from signkin.io.text_rows import Row, TimeFormat, read_text
 
@@ -50,12 +50,13 @@ def read_elan_tab(
     if not rows:
         raise SignkinError("nothing in it", place="line 1", expected=EXPECTED)
     found = _with_header(rows) if _is_header(rows[0]) else _without_header(rows)
-    chosen = choose_tiers(tiers, [TierName(tag.tier, tag.participant) for tag in found])
-    wanted = {tier for names in chosen.values() for tier in names}
+    names = told_apart([TierName(tag.tier, tag.participant) for tag in found])
+    chosen = choose_tiers(tiers, list(dict.fromkeys(names)))
+    wanted = {tier for those in chosen.values() for tier in those}
     collected = Collected()
-    for tag in found:
-        if tag.tier in wanted:
-            collected.add(tag.start_s, tag.end_s, tag.text, tag.tier, f"line {tag.line}")
+    for tag, tier in zip(found, names, strict=True):
+        if tier.name in wanted:
+            collected.add(tag.start_s, tag.end_s, tag.text, tier.name, f"line {tag.line}")
     return collected.annotation(name or path.stem, tiers, chosen)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from signkin.annotation import Annotation, TierWish, tier_key
 from signkin.errors import SignkinError
-from signkin.io.collecting import Collected, TierName, choose_tiers
+from signkin.io.collecting import Collected, TierName, choose_tiers, told_apart
 from signkin.io.registry import annotation_reader
 from signkin.io.text_rows import TextTable, TimeFormat, read_table
 
@@ -85,4 +85,4 @@ def _tiers(
     for row in table.rows:
         person = "" if person_at is None else row.cells[person_at].strip()
         out.append(TierName(person if tier_at is None else row.cells[tier_at].strip(), person))
-    return out
+    return told_apart(out)
