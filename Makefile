@@ -3,6 +3,7 @@
 # make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
 # make test          set up and pass the tests
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
+# make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
 
@@ -14,7 +15,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all utterance test lint unit bench lock bench-lock clean
+.PHONY: settings all utterance test lint unit bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -62,6 +63,9 @@ bench-lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --quiet \
 	  --constraint requirements.lock --override benchmarks/overrides.txt \
 	  requirements-bench.in -o requirements-bench.lock
+
+settings: $(VENV)/ready
+	$(BIN)/python -m signkin.settings .
 
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --all-extras \

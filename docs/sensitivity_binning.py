@@ -25,7 +25,7 @@ from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
 from signkin.stages.ingest import ingest
-from signkin.studies.endres2013 import single_signs as cutting
+from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
     FITTED_MAP,
     Data,
@@ -34,7 +34,13 @@ from signkin.studies.endres2013.posteriors import (
     chosen,
     prior_of,
 )
-from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
+from signkin.studies.endres2013.single_signs import (
+    POWERLAW,
+    RECORDED,
+    Trajectory,
+    movement_of,
+    single_signs,
+)
 from signkin.studies.one_wrist.long_series import long_series
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -349,10 +355,10 @@ def splines(of: Takes, config: Settings) -> None:
     """Print how far a path at the middle of bins is from straight lines between its samples."""
     apart, fewer, bins = [], 0, int(config["binning"]["bins"])
     for recording in of.recordings:
-        wrist = cutting.wrist_of(recording, config)
-        path = wrist.path[wrist.active]
+        movement = movement_of(recording, config)
+        path, wrist = movement.path, movement.wrist
         fewer += len(path) <= bins
-        x, bin_s = cutting.in_bins(path, wrist.rate_hz, min(bins, len(path)))
+        x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
         if len(path) <= bins:
             continue
         middle = (np.arange(len(x)) + 0.5) * bin_s

@@ -4,13 +4,11 @@ utterance` makes an utterance from a list of glosses, `signkin audit` checks a l
 from __future__ import annotations
 
 import argparse
-import fcntl
 import os
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -42,16 +40,18 @@ def main(arguments: list[str] | None = None) -> int:
 
 def say(told: argparse.Namespace) -> int:
     """Make one utterance; what it wants of the workflow is run first."""
+    from signkin.checkout import workflow_home
     from signkin.errors import SignkinError
     from signkin.studies.naert2017.synthesis.speak import glosses_of, prerequisites, speak
 
     changes = {k: v for k in ("method", "duration", "retrieval") if (v := getattr(told, k))}
     try:
-        targets = prerequisites(told.corpus, changes, ROOT)
+        home = workflow_home()
+        targets = prerequisites(told.corpus, changes, home)
         status = run_workflow(["--quiet", "all", "--", *targets])
         if status:
             return status
-        for line in speak(told.corpus, glosses_of(told.glosses), told.name, changes, ROOT):
+        for line in speak(told.corpus, glosses_of(told.glosses), told.name, changes, home):
             print(line)
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
@@ -88,17 +88,32 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with the process, so a killed run can simply go on.
     """
+    from signkin.checkout import workflow_home
+    from signkin.errors import SignkinError
+    from signkin.lock import held
+    from signkin.yaml_file import read_yaml
+
     folder = folder or Path.cwd()
+    try:
+        home = workflow_home()
+        if (folder / "config.yaml").is_file():
+            read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
+        if find_spec("snakemake") is None:
+            raise SignkinError(
+                "Snakemake, which runs the workflow, is not installed",
+                todo="Install the extra: pip install 'signkin[workflow]'.",
+            )
+    except SignkinError as error:
+        print(f"signkin: {error}", file=sys.stderr)
+        return 1
     state = folder / ".snakemake"
     state.mkdir(exist_ok=True)
-    with (state / "signkin.lock").open("w") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+    with held(state / "signkin.lock") as alone:
+        if not alone:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
-        command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
-        command += ["--profile", str(ROOT / "profiles" / "default"), "--nolock", *extra]
+        command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
+        command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
         done = subprocess.run(command, cwd=folder, env={**os.environ, **threads}, check=False)

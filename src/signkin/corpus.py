@@ -1,6 +1,6 @@
 """A corpus as a folder: corpus.yaml, recordings.csv, signs.csv, checked before anything runs.
 
-JSON Schemas (workflow/schemas) check shapes and words; this module adds what
+JSON Schemas (signkin/schemas) check shapes and words; this module adds what
 schemas cannot say: doubled rows, files that are not there, joint names outside
 the vocabulary, sign types that contradict themselves.
 """
@@ -13,6 +13,7 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,11 @@ import yaml
 from signkin import joints as joint_names
 from signkin.annotation import TierWish, tier_key
 from signkin.errors import SignkinError, listed
+from signkin.settings.checks import checked
+from signkin.settings.corpus import CorpusDescription
+from signkin.yaml_file import read_yaml
 
-SCHEMAS = Path(__file__).resolve().parents[2] / "workflow" / "schemas"
+SCHEMAS = files("signkin") / "schemas"
 GUIDE = "See docs/adding-a-corpus.md."
 
 
@@ -107,6 +111,12 @@ class Corpus:
     def unit(self) -> str:
         """Unit of length after reading: m or px."""
         return "px" if self.settings["motion"].get("unit") == "px" else "m"
+
+    @property
+    def declared_rate_hz(self) -> float | None:
+        """The sampling rate that corpus.yaml states, None where the files tell it."""
+        rate = self.settings["motion"].get("rate_hz")
+        return float(rate) if isinstance(rate, (int, float)) else None
 
     @property
     def lexicon(self) -> dict[str, str]:
@@ -193,8 +203,8 @@ def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corp
 
 def load_corpus(folder: Path) -> Corpus:
     """Load and check one corpus folder."""
-    settings = _read_yaml(folder / "corpus.yaml")
-    check_schema(settings, "corpus", folder / "corpus.yaml")
+    settings = _given(read_yaml(folder / "corpus.yaml", GUIDE))
+    checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
     signs_file = folder / "signs.csv"
@@ -202,23 +212,14 @@ def load_corpus(folder: Path) -> Corpus:
     return Corpus(folder.name, folder, settings, entries, signs)
 
 
-def _read_yaml(path: Path) -> dict[str, Any]:
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = None if mark is None else f"line {mark.line + 1}"
-        problem = getattr(error, "problem", None) or "not YAML"
-        raise SignkinError(str(problem), file=path, place=place, expected="YAML") from error
-    if not isinstance(content, dict):
-        raise SignkinError("no keys", file=path, expected="a mapping of keys to values")
-    return content
+def _given(content: dict[str, Any]) -> dict[str, Any]:
+    """Return a mapping without the keys that are null, which say the same as none."""
+    inner = {k: _given(v) if isinstance(v, dict) else v for k, v in content.items()}
+    return {k: v for k, v in inner.items() if v is not None}
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
-    """Check a value against workflow/schemas/<schema>.schema.yaml; the error names the key."""
+    """Check a value against signkin/schemas/<schema>.schema.yaml; the error names the key."""
     errors = sorted(_validator(schema).iter_errors(content), key=lambda e: list(map(str, e.path)))
     if not errors:
         return
@@ -408,6 +409,6 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
         )
 
 
-def data_dir_of(config: Mapping[str, Any]) -> str | None:
-    """Return the folder of real recordings: the environment's SIGNKIN_DATA, else config."""
-    return os.environ.get("SIGNKIN_DATA") or config.get("data_dir") or None
+def data_dir_of(data_dir: str | None) -> str | None:
+    """Return the folder of real recordings: the environment's SIGNKIN_DATA, else config.yaml's."""
+    return os.environ.get("SIGNKIN_DATA") or data_dir or None

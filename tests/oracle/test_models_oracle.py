@@ -7,6 +7,7 @@ import statsmodels.formula.api as smf
 from scipy.spatial.transform import Rotation
 
 from signkin.coarticulation import SurfaceDuration, geodesic_distance
+from signkin.coarticulation.duration import Transitions
 
 
 def test_surface_against_statsmodels_ols():
@@ -14,7 +15,7 @@ def test_surface_against_statsmodels_ols():
     data = pd.DataFrame({"g": rng.uniform(0, 0.3, 89), "e": rng.uniform(0, 1.1, 89)})
     data["d"] = 0.15 + 0.66 * data["g"] + 0.28 * data["e"] + rng.normal(0, 0.06, 89)
     ols = smf.ols("d ~ g + e", data).fit()
-    ours = SurfaceDuration().fit(*(data[c].to_numpy() for c in ("g", "e", "d")))
+    ours = SurfaceDuration().fit(Transitions(*(data[c].to_numpy() for c in ("g", "e", "d"))))
     assert ours.theta == pytest.approx(ols.params.to_numpy(), rel=1e-9)
     assert ours.standard_error == pytest.approx(ols.bse.to_numpy(), rel=1e-9)
     assert ours.interval() == pytest.approx(ols.conf_int().to_numpy(), rel=1e-9)

@@ -5,7 +5,6 @@ from itertools import product
 import bvhio
 import numpy as np
 import pytest
-import yaml
 from scipy.spatial.transform import Rotation
 
 from signkin import read_recording, tables
@@ -13,6 +12,8 @@ from signkin.corpus import load_corpus
 from signkin.errors import SignkinError
 from signkin.io.bvh import channel_values, forward_kinematics, parse_bvh
 from signkin.io.wide_csv import column_map
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.stages.ingest import ingest
 from signkin.studies.naert2017.synthesis.comparison import comparison, summary
 from signkin.studies.naert2017.synthesis.utterance import (
@@ -29,8 +30,8 @@ PRINTED = np.array([0.148777, 0.663958, 0.275229])
 
 
 @pytest.fixture(scope="module")
-def settings(root):
-    return yaml.safe_load((root / "config.yaml").read_text())
+def settings():
+    return legacy(Settings())
 
 
 def stock(root, data, name, settings):

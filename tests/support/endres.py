@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from signkin.corpus import Corpus, Entry, load_corpus
 from signkin.recording import Recording
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.simulate.isl import RATE_HZ, simulate
 from support.runs import ROOT
 
@@ -20,7 +21,7 @@ JOINTS = ("right_wrist", "left_wrist")
 
 def settings(**binning: Any) -> dict[str, Any]:
     """Return the sections of the shipped config.yaml that the study takes, `binning` changed."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text())
+    config = legacy(Settings())
     out = {key: copy.deepcopy(config[key]) for key in ("kinematics", "binning", "powerlaw")}
     out["binning"].update(binning)
     return out

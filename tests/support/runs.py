@@ -39,17 +39,17 @@ def environment(data: Path | None) -> dict[str, str]:
 
 
 # The same rules on less: fewer settings, draws and fitted recordings than the shipped ones.
-QUICK_BINNING = {
-    "fitted_recordings": 6,
-    "bootstrap_draws": 200,
-    "chance_trajectories": 400,
-    "sensitivity": {
-        "recordings": 2,
-        "dof": [None],
-        "noise": ["sensor expected", "data plain"],
-        "concentration": [0.1],
-        "time_unit": ["bin", "second"],
-        "bins": [100],
+QUICK = {
+    "binning": {"fitted_recordings": 6, "bootstrap_draws": 200, "chance_trajectories": 400},
+    "open_choices": {
+        "endres2013": {
+            "recordings": 2,
+            "dof": [None],
+            "noise": ["sensor expected", "data plain"],
+            "concentration": [0.1],
+            "time_unit": ["bin", "second"],
+            "bins": [100],
+        },
     },
 }
 
@@ -66,7 +66,7 @@ def merged(old: dict, new: dict) -> dict:
 def prepare(folder: Path, **changes: object) -> Path:
     """Write config.yaml of a run: the shipped one, quicker, with changes (`corpora=[...]`)."""
     config = yaml.safe_load((ROOT / "config.yaml").read_text())
-    config = {**merged(config, {"binning": QUICK_BINNING}), **changes}
+    config = {**merged(config, QUICK), **changes}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "config.yaml").write_text(yaml.safe_dump(config))
     return folder

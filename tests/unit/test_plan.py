@@ -6,13 +6,14 @@ import pytest
 
 from signkin import SignkinError
 from signkin.corpus import load_corpora
+from signkin.settings import Settings
 from signkin.stages.plan import Plan
 
 
 @pytest.fixture(scope="module")
 def plan(root):
     corpora = load_corpora(root / "corpora")
-    return Plan(corpora, {}, {}, recordings_per_job=1000, root=root, papers=root / "papers")
+    return Plan(corpora, {}, {}, settings=Settings(), root=root, papers=root / "papers")
 
 
 def test_each_simulator_has_its_corpus(plan):

@@ -2,12 +2,10 @@ from dataclasses import asdict, fields, replace
 
 import numpy as np
 import pytest
-import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signkin import SignkinError
-from signkin.corpus import check_schema
 from signkin.kinematics import curvature, speed
 from signkin.powerlaw import (
     REASONS,
@@ -19,6 +17,7 @@ from signkin.powerlaw import (
     fit_power_law,
     warp_to_power_law,
 )
+from signkin.settings import Settings
 from support.signs import minimum_jerk_sign
 
 # --- fitting
@@ -289,11 +288,10 @@ def test_settings_that_leave_nothing_to_draw_are_refused(wrong):
         WarpSettings(**wrong)
 
 
-def test_config_and_settings_have_the_same_keys_and_values(root):
-    config = yaml.safe_load((root / "config.yaml").read_text())
-    check_schema(config, "config", "config.yaml")
-    assert set(config["powerlaw"]) == {field.name for field in fields(WarpSettings)}
-    assert WarpSettings(**config["powerlaw"]) == WarpSettings()
+def test_config_and_settings_have_the_same_keys_and_values():
+    section = dict(Settings().powerlaw)
+    assert set(section) == {field.name for field in fields(WarpSettings)}
+    assert WarpSettings(**section) == WarpSettings()
     assert asdict(replace(WarpSettings(), segments=4))["segments"] == 4
 
 

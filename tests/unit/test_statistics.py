@@ -5,16 +5,21 @@ import warnings
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signkin import tables
 from signkin.coarticulation.sign_speeds import continuous, sign_speeds, step_angles
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.statistics import anova, association, equivalence, mixed, posthoc
 from signkin.statistics.effects import cohens_d, share_interval
-from signkin.statistics.findings import Finding, grouped
-from signkin.studies.naert2017 import durations
+from signkin.statistics.findings import Finding, Kind, grouped
+from signkin.studies.naert2017 import (
+    durations_models,
+    durations_statistics,
+    durations_surface,
+)
 
 NAN = float("nan")
 
@@ -147,8 +152,8 @@ def test_speeds_of_signs_that_move_and_turn_steadily():
 
 
 @pytest.fixture(scope="module")
-def config(root):
-    content = yaml.safe_load((root / "config.yaml").read_text())
+def config():
+    content = legacy(Settings())
     content["durations"]["draws"] = 100
     return content
 
@@ -182,20 +187,20 @@ CONSTANTS = {
 
 def test_statistics_of_a_corpus_leave_no_bare_gap(config):
     rows, _ = corpus()
-    found = durations.statistics("c", rows, "m", config, 1)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
     assert list(found.columns) == tables.TABLES["statistics"].names()
     bare = found["p"].isna() & found["effect"].isna() & (found["note"] == "")
     assert not bare.any()
     words = found[found["test"] == "in words"]
     assert set(words["question"]) == {"type", "change of hands", "hands", "symmetry", "distance"}
-    again = durations.statistics("c", rows, "m", config, 1)
+    again = durations_statistics.statistics("c", rows, "m", config, 1)
     pd.testing.assert_frame_equal(found, again)
 
 
 def test_an_outlier_is_counted_and_left_out_once(config):
     rows, _ = corpus()
     rows.loc[0, "duration_s"] = 2.0
-    found = durations.statistics("c", rows, "m", config, 1)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
     anovas = found[(found["test"] == "one-way ANOVA") & (found["question"] == "type")]
     assert dict(zip(anovas["outliers"], anovas["n"], strict=True)) == {"kept": 40, "left out": 39}
 
@@ -203,7 +208,7 @@ def test_an_outlier_is_counted_and_left_out_once(config):
 @pytest.mark.parametrize("spoilt", [{"duration_s": 0.3}, {"type": "1010"}, {"type": ""}])
 def test_equal_durations_one_type_and_no_type_are_told(config, spoilt):
     rows, _ = corpus(**spoilt)
-    found = durations.statistics("c", rows, "m", config, 1)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
     bare = found["p"].isna() & found["effect"].isna() & (found["note"] == "")
     assert not bare.any()
     assert found["note"].str.contains("not testable: ").any()
@@ -213,7 +218,7 @@ def test_in_words_no_difference_is_no_equivalence(config):
     rng = np.random.default_rng(0)
     # Twelve transitions that scatter by 0.3 s: too few to show anything.
     rows, _ = corpus(n=12, duration_s=rng.normal(1, 0.3, 12))
-    found = durations.statistics("c", rows, "m", config, 1)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
     words = found[(found["test"] == "in words") & (found["question"] == "symmetry")]["note"].iloc[0]
     assert words.startswith("No difference was found, which is no evidence that there is none")
     assert "80% power" in words
@@ -221,41 +226,41 @@ def test_in_words_no_difference_is_no_equivalence(config):
 
 def test_models_on_a_corpus(config):
     rows, speeds = corpus()
-    learn = durations.learnable(rows, speeds, "m", config)
-    found, predicted = durations.models("c", learn, config, CONSTANTS, 1)
-    assert set(found["model"]) == set(durations.MODELS)
+    learn = durations_models.learnable(rows, speeds, "m", config)
+    found, predicted = durations_models.models("c", learn, config, CONSTANTS, 1)
+    assert set(found["model"]) == set(durations_models.MODELS)
     assert (found["mean_error_s"].notna() | found["note"].str.startswith("not testable")).all()
     errors = found.set_index(["model", "evaluation"])["mean_error_s"]
     assert errors["SURFACE", "leave_one_out"] < errors["MEAN", "leave_one_out"]
     assert errors["SURFACE", "in_sample"] <= errors["SURFACE", "leave_one_out"]
-    assert set(predicted["model"]) == set(durations.MODELS)
-    theta = durations.coefficients("c", learn, config, CONSTANTS, 1)
+    assert set(predicted["model"]) == set(durations_models.MODELS)
+    theta = durations_surface.coefficients("c", learn, config, CONSTANTS, 1)
     inside = theta[theta["coefficient"] == "euclidean"].iloc[0]
     assert inside["low"] < 0.27 < inside["high"]  # 2.7 s/m in units of 0.1 m
 
 
 def test_models_that_a_corpus_does_not_allow_say_why(config):
     rows, speeds = corpus(recordings=1, geodesic_rad=NAN)
-    learn = durations.learnable(rows, speeds, "m", config)
-    found, _ = durations.models("c", learn, config, CONSTANTS, 1)
+    learn = durations_models.learnable(rows, speeds, "m", config)
+    found, _ = durations_models.models("c", learn, config, CONSTANTS, 1)
     notes = found.set_index(["model", "evaluation"])["note"]
     assert "no orientations" in notes["SURFACE", "leave_one_out"]
     assert "one recording only" in notes["LINEAR", "leave_one_recording_out"]
     assert np.isfinite(
         found.set_index(["model", "evaluation"])["mean_error_s"]["LINEAR", "in_sample"]
     )
-    theta = durations.coefficients("c", learn, config, CONSTANTS, 1)
+    theta = durations_surface.coefficients("c", learn, config, CONSTANTS, 1)
     assert theta[theta["model"] == "SURFACE"]["note"].str.startswith("not testable").all()
 
 
 def test_collinear_distances_have_no_surface_but_a_figure(config):
     rows, speeds = corpus()
     rows["geodesic_rad"] = 2 * rows["euclidean_m"]
-    learn = durations.learnable(rows, speeds, "m", config)
-    found, _ = durations.models("c", learn, config, CONSTANTS, 1)
+    learn = durations_models.learnable(rows, speeds, "m", config)
+    found, _ = durations_models.models("c", learn, config, CONSTANTS, 1)
     surface = found[found["model"] == "SURFACE"]
     assert surface["note"].str.contains("singular").all()
-    points, theta, reason = durations.surface_points(learn)
+    points, theta, reason = durations_surface.surface_points(learn)
     assert theta is None and "singular" in reason and len(points) == 40
 
 
@@ -263,7 +268,7 @@ def test_transitions_without_a_distance_or_speed_are_counted(config):
     rows, speeds = corpus()
     rows.loc[0, "euclidean_m"] = NAN
     speeds.loc[1, "previous_linear_speed_m_per_s"] = NAN
-    learn = durations.learnable(rows, speeds, "m", config)
+    learn = durations_models.learnable(rows, speeds, "m", config)
     assert len(learn.data) == 38
     assert (
         learn.note == "1 left out: no Euclidean distance (gaps); 1 left out: a sign without speed"
@@ -273,4 +278,4 @@ def test_transitions_without_a_distance_or_speed_are_counted(config):
 def test_grouping_keeps_every_value():
     groups = grouped(np.arange(5.0), ["b", "a", "b", "c", "a"])
     assert {k: v.tolist() for k, v in groups.items()} == {"a": [1, 4], "b": [0, 2], "c": [3]}
-    assert Finding("t").noted("x", "y").note == "x; y"
+    assert Finding("t", Kind.CHECK).noted("x", "", "y").note == "x; y"

@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from signkin import Interval, Recording, SignkinError
 from signkin.coarticulation import SurfaceDuration, euclidean_distance, geodesic_distance
+from signkin.coarticulation.duration import Transitions
 from signkin.coarticulation.posture import normalised
 from signkin.coarticulation.sign_types import TypeRule, Wrists, reach_of, sign_type_rows
 from signkin.coarticulation.transitions import (
@@ -237,7 +238,7 @@ def test_the_reach_is_the_arm_or_the_wrists_spread():
 
 def test_the_printed_example():
     model = SurfaceDuration(theta=np.array([0.148777, 0.663958, 0.275229]))
-    assert f"{model.predict(0.103753, 1.08172):.5f}" == "0.51539"
+    assert f"{model.predict(Transitions(0.103753, 1.08172))[0]:.5f}" == "0.51539"
 
 
 def test_the_surface_is_the_normal_equations_solution():
@@ -245,7 +246,7 @@ def test_the_surface_is_the_normal_equations_solution():
     g, e = rng.uniform(0, 0.3, 89), rng.uniform(0, 1, 89)
     y = 0.15 + 0.66 * g + 0.28 * e + rng.normal(0, 0.05, 89)
     x = np.column_stack([np.ones(89), g, e])
-    model = SurfaceDuration().fit(g, e, y)
+    model = SurfaceDuration().fit(Transitions(g, e, y))
     assert model.theta == pytest.approx(np.linalg.inv(x.T @ x) @ x.T @ y)
     assert model.mean_error_s == pytest.approx(np.abs(y - x @ model.theta).mean())
     assert (model.interval()[:, 0] < model.theta).all()
@@ -254,8 +255,8 @@ def test_the_surface_is_the_normal_equations_solution():
 def test_singular_or_missing_input_is_refused():
     line = np.linspace(0, 1, 20)
     with pytest.raises(SignkinError, match="normal equations of 20 transitions are singular"):
-        SurfaceDuration().fit(line, 2 * line + 0.1, line)
+        SurfaceDuration().fit(Transitions(line, 2 * line + 0.1, line))
     with pytest.raises(SignkinError, match="a distance or duration is missing"):
-        SurfaceDuration().fit(line * NAN, line, line)
+        SurfaceDuration().fit(Transitions(line * NAN, line, line))
     with pytest.raises(SignkinError, match="of 3 transitions"):
-        SurfaceDuration().fit(line[:3], line[:3] ** 2, line[:3])
+        SurfaceDuration().fit(Transitions(line[:3], line[:3] ** 2, line[:3]))

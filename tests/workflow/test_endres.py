@@ -11,7 +11,7 @@ import yaml
 
 from signkin import Interval, tables
 from signkin.io.eaf import write_eaf
-from signkin.studies.endres2013.figures import FIGURES
+from signkin.studies.endres2013.figures import DRAWINGS
 from support.endres import simulated
 from support.runs import MINI, ROOT, checked, mini_motion, prepare, run
 
@@ -25,11 +25,11 @@ def study_config():
     config["binning"].update(
         bins=40, orders=ORDERS, fitted_orders=[1, 3], fitted_recordings=2, bootstrap_draws=100,
         chance_trajectories=200,
-        sensitivity={
-            "recordings": 2, "orders": [0, 3], "dof": [None], "bins": [40], "time_unit": ["bin"],
-            "noise": ["sensor expected"], "concentration": [0.1],
-        },
     )  # fmt: skip
+    config["open_choices"]["endres2013"] = {
+        "recordings": 2, "orders": [0, 3], "dof": [None], "bins": [40], "time_unit": ["bin"],
+        "noise": ["sensor expected"], "concentration": [0.1],
+    }  # fmt: skip
     return config
 
 
@@ -127,13 +127,13 @@ def test_every_sign_is_binned_or_listed(signs_run):
 def test_each_figure_has_its_numbers(signs_run):
     done, _ = signs_run
     folder = done.results / "endres2013/signs"
-    for name in FIGURES:
+    for name in DRAWINGS:
         kind = "fig01_powerlaw" if name == "fig01" else "endres_figure"
         assert len(table(done, "signs", name, kind)) > 5
         assert (folder / f"{name}.svg").stat().st_size > 10_000
         assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
     captions = yaml.safe_load((folder / "captions.json").read_text())
-    assert set(captions) == set(FIGURES)
+    assert set(captions) == set(DRAWINGS)
     assert f"{GOOD} power-law ground-truth trajectories" in captions["fig06"]
     assert f"{GOOD + 1} recorded trajectories" in captions["fig07"]
     assert not any("nan" in text for text in captions.values())

@@ -50,7 +50,7 @@ rule audit_page:
         claims=rules.claims.output.claims,
         checks=rules.claims.output.checks,
         curves=rules.curves.output.folder,
-        wrists=collect(rules.one_wrist.output.table, corpus=PLAN.continuous),
+        wrists=collect(rules.one_wrist.output.one_wrist, corpus=PLAN.continuous),
         papers=PLAN.claim_files(),
     output:
         page="<results>/audit/index.html",

@@ -1,12 +1,22 @@
 # What a run consists of, found out once: corpora, their files, what is missing.
+from pathlib import Path
+
 from signkin.errors import SignkinError
+from signkin.settings.legacy import legacy
 from signkin.stages.plan import make_plan
+from signkin.yaml_file import read_yaml
 from snakemake.exceptions import WorkflowError
 
 try:
+    for file in workflow.configfiles:  # Snakemake takes a key that stands twice
+        read_yaml(Path(file))
     PLAN = make_plan(config, workflow.basedir)
 except SignkinError as error:
     raise WorkflowError(f"signkin: {error}") from None
+
+# Each rule takes the sections that it needs, so that a changed key reruns what depends on it alone.
+SETTINGS = PLAN.settings
+config = legacy(SETTINGS)
 
 
 wildcard_constraints:
@@ -14,6 +24,12 @@ wildcard_constraints:
     shard=r"\d{4}",
 
 
-def of_shards(pattern):
-    """Return an input function: the files of all shards of a corpus."""
-    return lambda w: collect(pattern, corpus=w.corpus, shard=PLAN.shards(w.corpus))
+def of_shards(*patterns):
+    """Return an input function: the files of all shards of a corpus, shard by shard."""
+
+    def files(wildcards):
+        shards = PLAN.shards(wildcards.corpus)
+        each = [collect(patterns, corpus=wildcards.corpus, shard=s) for s in shards]
+        return [file for shard in each for file in shard]
+
+    return files

@@ -1,4 +1,7 @@
 # Endres, Meirovitch, Flash & Giese 2013: single signs, ground truth, binning, tables and figures.
+from signkin.exhibits import exhibits, files, of_groups
+
+ENDRES_EXHIBITS = exhibits(PLAN.papers / "endres2013")
 
 
 rule single_signs:
@@ -32,8 +35,8 @@ rule bin_single_signs:
         trajectories=rules.single_signs.output.trajectories,
     output:
         binning="<results>/endres2013/{corpus}/shards/{shard}/binning.csv",
-        truths="<results>/endres2013/{corpus}/shards/{shard}/fitted_truths.csv",
-        left_out="<results>/endres2013/{corpus}/shards/{shard}/not_binned.csv",
+        fitted_truths="<results>/endres2013/{corpus}/shards/{shard}/fitted_truths.csv",
+        binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/not_binned.csv",
         posteriors="<results>/endres2013/{corpus}/shards/{shard}/posteriors.parquet",
     log:
         "<logs>/endres2013/{corpus}/{shard}/binning.log",
@@ -53,22 +56,22 @@ rule endres_tables:
     """Order posteriors, hit rates, chance lines and tests, for a whole corpus (3.1 to 3.3)."""
     input:
         binning=of_shards(rules.bin_single_signs.output.binning),
-        fitted_truths=of_shards(rules.bin_single_signs.output.truths),
+        fitted_truths=of_shards(rules.bin_single_signs.output.fitted_truths),
         ground_truth=of_shards(rules.single_signs.output.ground_truth),
         rejected_draws=of_shards(rules.single_signs.output.rejected_draws),
         not_cut=of_shards(rules.single_signs.output.binning_left_out),
-        not_binned=of_shards(rules.bin_single_signs.output.left_out),
+        not_binned=of_shards(rules.bin_single_signs.output.binning_left_out),
         trajectories=of_shards(rules.single_signs.output.trajectories),
     output:
         binning="<results>/endres2013/{corpus}/binning.csv",
-        truths="<results>/endres2013/{corpus}/fitted_truths.csv",
+        fitted_truths="<results>/endres2013/{corpus}/fitted_truths.csv",
         ground_truth="<results>/endres2013/{corpus}/ground_truth.csv",
-        rejected="<results>/endres2013/{corpus}/rejected_draws.csv",
-        left_out="<results>/endres2013/{corpus}/left_out.csv",
-        orders="<results>/endres2013/{corpus}/order_posteriors.csv",
-        rates="<results>/endres2013/{corpus}/hit_rates.csv",
-        lines="<results>/endres2013/{corpus}/chance_lines.csv",
-        tests="<results>/endres2013/{corpus}/order_tests.csv",
+        rejected_draws="<results>/endres2013/{corpus}/rejected_draws.csv",
+        binning_left_out="<results>/endres2013/{corpus}/left_out.csv",
+        order_posteriors="<results>/endres2013/{corpus}/order_posteriors.csv",
+        hit_rates="<results>/endres2013/{corpus}/hit_rates.csv",
+        chance_lines="<results>/endres2013/{corpus}/chance_lines.csv",
+        order_tests="<results>/endres2013/{corpus}/order_tests.csv",
     log:
         "<logs>/endres2013/{corpus}/tables.log",
     params:
@@ -86,27 +89,17 @@ rule endres_tables:
 rule endres_figures:
     """Figures 1, 3 to 7 and A1, with the numbers drawn in them."""
     input:
+        exhibits=PLAN.papers / "endres2013" / "exhibits.yaml",
         recordings=of_shards(rules.ingest.output.recordings),
         trajectories=of_shards(rules.single_signs.output.trajectories),
         posteriors=of_shards(rules.bin_single_signs.output.posteriors),
         ground_truth=rules.endres_tables.output.ground_truth,
-        order_posteriors=rules.endres_tables.output.orders,
-        hit_rates=rules.endres_tables.output.rates,
-        chance_lines=rules.endres_tables.output.lines,
-        order_tests=rules.endres_tables.output.tests,
+        order_posteriors=rules.endres_tables.output.order_posteriors,
+        hit_rates=rules.endres_tables.output.hit_rates,
+        chance_lines=rules.endres_tables.output.chance_lines,
+        order_tests=rules.endres_tables.output.order_tests,
     output:
-        svg=collect(
-            "<results>/endres2013/{{corpus}}/{figure}.svg",
-            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
-        ),
-        pdf=collect(
-            "<results>/endres2013/{{corpus}}/{figure}.pdf",
-            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
-        ),
-        csv=collect(
-            "<results>/endres2013/{{corpus}}/{figure}.csv",
-            figure=["fig01", "fig03", "fig04", "fig05", "fig06", "fig07", "figA1"],
-        ),
+        files(of_groups(ENDRES_EXHIBITS, "figures"), "<results>/endres2013/{corpus}"),
         captions="<results>/endres2013/{corpus}/captions.json",
     log:
         "<logs>/endres2013/{corpus}/figures.log",
@@ -129,7 +122,7 @@ rule sensitivity:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
     output:
-        table="<results>/endres2013/{corpus}/sensitivity.csv",
+        sensitivity="<results>/endres2013/{corpus}/sensitivity.csv",
         svg="<results>/endres2013/{corpus}/fig_sensitivity.svg",
         pdf="<results>/endres2013/{corpus}/fig_sensitivity.pdf",
         caption="<results>/endres2013/{corpus}/sensitivity.txt",
@@ -151,10 +144,11 @@ rule sensitivity:
 
 rule binning_scheme:
     """The model as a drawing (Fig. 2)."""
+    input:
+        exhibits=PLAN.papers / "endres2013" / "exhibits.yaml",
     output:
-        svg="<results>/endres2013/fig02.svg",
-        pdf="<results>/endres2013/fig02.pdf",
-        csv="<results>/endres2013/fig02.csv",
+        files(of_groups(ENDRES_EXHIBITS, "scheme"), "<results>/endres2013"),
+        captions="<results>/endres2013/captions.json",
     log:
         "<logs>/endres2013/scheme.log",
     params:

@@ -16,7 +16,7 @@ rule kinematics:
     params:
         code=PLAN.digest("stages/kinematics.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings=config["kinematics"],
+        settings=SETTINGS.kinematics,
     script:
         "../scripts/stages/kinematics.py"
 
@@ -24,36 +24,13 @@ rule kinematics:
 rule gather:
     """The tables of a corpus that both studies share."""
     input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/recordings.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        intervals=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/intervals.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        minima=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/minima.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        gaps=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/gaps.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        plausibility=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/plausibility.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        excluded=lambda w: collect(
-            "<results>/{corpus}/shards/{shard}/excluded_{stage}.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-            stage=["reading", "wrists"],
+        recordings=of_shards(rules.ingest.output.about),
+        intervals=of_shards(rules.ingest.output.intervals),
+        minima=of_shards(rules.kinematics.output.minima),
+        gaps=of_shards(rules.kinematics.output.gaps),
+        plausibility=of_shards(rules.kinematics.output.plausibility),
+        excluded=of_shards(
+            rules.ingest.output.excluded, rules.kinematics.output.excluded
         ),
     output:
         recordings="<results>/{corpus}/recordings.csv",
@@ -74,11 +51,7 @@ rule gather:
 rule wrist_speeds:
     """Speed curves of a corpus without tags."""
     input:
-        frames=lambda w: collect(
-            "<results>/{corpus}/kinematics/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        frames=of_shards(rules.kinematics.output.frames),
         minima=rules.gather.output.minima,
     output:
         figure=multiext("<results>/{corpus}/fig_speed", ".svg", ".pdf"),

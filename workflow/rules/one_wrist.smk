@@ -32,20 +32,20 @@ rule one_wrist:
         wrist_posteriors=of_shards(rules.long_series.output.wrist_posteriors),
         wrist_boundaries=of_shards(rules.long_series.output.wrist_boundaries),
         binning_left_out=of_shards(rules.long_series.output.binning_left_out),
-        about=rules.gather.output.recordings,
+        recordings=rules.gather.output.recordings,
         minima=rules.gather.output.minima,
-        tags=branch(
+        boundaries=branch(
             lambda w: w.corpus in PLAN.tagged,
             then=rules.naert_tables.output.boundaries,
             otherwise=[],
         ),
         frames=of_shards(rules.kinematics.output.frames),
     output:
-        posteriors="<results>/endres2013/{corpus}/wrist_posteriors.csv",
-        boundaries="<results>/endres2013/{corpus}/wrist_boundaries.csv",
-        left_out="<results>/endres2013/{corpus}/wrists_left_out.csv",
-        table="<results>/endres2013/{corpus}/one_wrist.csv",
-        csv="<results>/endres2013/{corpus}/fig_one_wrist.csv",
+        wrist_posteriors="<results>/endres2013/{corpus}/wrist_posteriors.csv",
+        wrist_boundaries="<results>/endres2013/{corpus}/wrist_boundaries.csv",
+        binning_left_out="<results>/endres2013/{corpus}/wrists_left_out.csv",
+        one_wrist="<results>/endres2013/{corpus}/one_wrist.csv",
+        endres_figure="<results>/endres2013/{corpus}/fig_one_wrist.csv",
         svg="<results>/endres2013/{corpus}/fig_one_wrist.svg",
         pdf="<results>/endres2013/{corpus}/fig_one_wrist.pdf",
         caption="<results>/endres2013/{corpus}/one_wrist.txt",
@@ -63,7 +63,7 @@ rule one_wrist:
 rule binning_elan:
     """Segments by binning in the .eaf, as tiers of their own."""
     input:
-        boundaries=rules.one_wrist.output.boundaries,
+        boundaries=rules.one_wrist.output.wrist_boundaries,
         about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         annotation=lambda w: PLAN.annotation_files(w.corpus),

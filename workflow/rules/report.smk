@@ -14,7 +14,7 @@ rule overview:
         "<logs>/overview.log",
     params:
         code=PLAN.digest("pages/overview.py"),
-        config=config,
+        settings=SETTINGS,
         corpora=sorted(PLAN.corpora),
     script:
         "../scripts/pages/overview.py"
@@ -45,6 +45,6 @@ rule report:
         code=PLAN.digest("pages/run.py"),
         corpora={name: str(corpus.folder) for name, corpus in PLAN.corpora.items()},
         missing=dict(PLAN.missing),
-        config={k: v for k, v in config.items() if k != "data_dir"},
+        settings=SETTINGS.model_copy(update={"data_dir": None}),
     script:
         "../scripts/pages/run.py"

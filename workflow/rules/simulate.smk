@@ -23,8 +23,8 @@ if "lsf-sim" in PLAN.simulated:
         params:
             code=PLAN.digest("stages/simulate_lsf.py"),
             corpus=lambda w: str(PLAN.corpora[LSF_SIM].folder),
-            seed=config["seed"],
-            euclidean_unit_m=config["transitions"]["euclidean_unit_m"],
+            seed=SETTINGS.seed,
+            euclidean_unit_m=SETTINGS.transitions.euclidean_unit_m,
         script:
             "../scripts/stages/simulate_lsf.py"
 
@@ -49,6 +49,6 @@ if "isl-sim" in PLAN.simulated:
         params:
             code=PLAN.digest("stages/simulate_isl.py"),
             corpus=lambda w: str(PLAN.corpora[ISL_SIM].folder),
-            seed=config["seed"],
+            seed=SETTINGS.seed,
         script:
             "../scripts/stages/simulate_isl.py"

@@ -1,11 +1,13 @@
 """Coarticulation (Naert, Larboulette & Gibet 2017): refinement, transitions, durations."""
 
 from signkin.coarticulation.duration import (
+    DurationModel,
     LinearDuration,
     MeanDuration,
     SimpleBoundedDuration,
     SimpleDuration,
     SurfaceDuration,
+    Transitions,
 )
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.retrieval import retrieve
@@ -13,11 +15,13 @@ from signkin.coarticulation.segmentation import refine
 from signkin.coarticulation.synthesis import blend, interpolate
 
 __all__ = [
+    "DurationModel",
     "LinearDuration",
     "MeanDuration",
     "SimpleBoundedDuration",
     "SimpleDuration",
     "SurfaceDuration",
+    "Transitions",
     "blend",
     "euclidean_distance",
     "geodesic_distance",

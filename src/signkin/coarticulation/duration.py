@@ -1,20 +1,19 @@
 """Models of transition duration (Naert et al. 2017, section 5.2).
 
-All share one interface: `fit(geodesic, euclidean, duration_s)`, then
-`predict(geodesic, euclidean)`. SIMPLE and SIMPLE_BOUNDED want the mean speeds of the two signs
-around each transition besides, as `linear_speed` and `angular_speed`. Distances may be in any
-unit, as long as it is the same in fit, predict and speeds (the pipeline: radians, and Euclidean
-over `euclidean_unit_m`).
+All share one base, `DurationModel`: `fit(transitions)`, then `predict(transitions)`, where
+`Transitions` holds the arrays. Distances may be in any unit, as long as it is the same in fit,
+predict and speeds (the pipeline: radians, and Euclidean over `euclidean_unit_m`).
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, field
-from typing import Protocol
+from dataclasses import dataclass, field, fields
+from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy import stats
 
 from signkin.errors import SignkinError
@@ -25,33 +24,77 @@ LINEAR_TERMS = ("constant", "mean_distance")
 Array = NDArray[np.float64]
 
 
-class DurationModel(Protocol):
-    """What every model of duration can do; arrays are (N,), speeds (N, 2)."""
+@dataclass(frozen=True, eq=False)
+class Transitions:
+    """What models learn from and predict for: arrays (N,), speeds (N, 2); NaN is missing.
 
-    def fit(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        duration_s: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> DurationModel:
+    geodesic: eq. 1, rad. euclidean: eq. 2, any unit. duration_s: seconds; only `fit` wants it.
+    linear_speed, angular_speed: means over the joints and frames of the sign before and of the
+    sign after, in distance units a second and rad/s measured as eq. 1 measures angles; only
+    SIMPLE and SIMPLE_BOUNDED want them. What is not given is NaN; numbers stand for arrays of
+    one. Raises SignkinError where lengths differ.
+    """
+
+    geodesic: Array
+    euclidean: Array
+    duration_s: Array = field(default_factory=lambda: np.empty(0))
+    linear_speed: Array = field(default_factory=lambda: np.empty((0, 2)))
+    angular_speed: Array = field(default_factory=lambda: np.empty((0, 2)))
+
+    def __post_init__(self) -> None:
+        """Turn all into arrays of one length."""
+        n = np.size(self.euclidean)
+        for part in fields(self):
+            wide = (n, 2) if part.name.endswith("speed") else (n,)
+            value = np.asarray(getattr(self, part.name), dtype=float)
+            if value.size == 0 and n:
+                value = np.full(wide, np.nan)
+            if value.size == np.prod(wide) and value.ndim < len(wide):
+                value = value.reshape(wide)
+            if value.shape != wide:
+                raise SignkinError(
+                    f"{part.name} has shape {value.shape}",
+                    place="transitions",
+                    expected=f"{wide}"
+                    + (": the sign before, the sign after" if len(wide) == 2 else ""),
+                )
+            object.__setattr__(self, part.name, value)
+
+    def __len__(self) -> int:
+        """Return the number of transitions."""
+        return len(self.duration_s)
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Transitions:
+        """Return some of the transitions."""
+        return Transitions(*(getattr(self, part.name)[chosen] for part in fields(self)))
+
+    def teach(self, model: DurationModel) -> DurationModel:
+        """Fit a model to these transitions and return it."""
+        return model.fit(self)
+
+    def ask(self, model: DurationModel) -> Array:
+        """Return what a model predicts for these transitions, in s, (N,)."""
+        return model.predict(self)
+
+
+class DurationModel(ABC):
+    """What every model of duration can do.
+
+    A model is made without data, learns from transitions with durations and then predicts.
+    Both raise SignkinError where the transitions do not have what the model wants.
+    """
+
+    @abstractmethod
+    def fit(self, transitions: Transitions) -> Self:
         """Learn from transitions and return the model itself."""
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
+    @abstractmethod
+    def predict(self, transitions: Transitions) -> Array:
         """Return durations in seconds, (N,)."""
 
 
 @dataclass
-class SimpleDuration:
+class SimpleDuration(DurationModel):
     """SIMPLE_DURATION (eq. 3): distance over the mean speed of the two surrounding signs.
 
     duration = alpha 2 E / (v1 + v2) + (1 - alpha) 2 G / (w1 + w2). Nothing is learnt: `fit`
@@ -66,40 +109,22 @@ class SimpleDuration:
         if not 0 <= self.alpha <= 1:
             raise SignkinError(f"alpha is {self.alpha:g}", place="SIMPLE", expected="0 to 1")
 
-    def fit(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        duration_s: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> SimpleDuration:
+    def fit(self, transitions: Transitions) -> Self:
         """Return the model itself: eq. 3 has nothing to learn."""
         return self
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
-        """Return durations in seconds, (N,).
-
-        linear_speed, angular_speed: (N, 2), mean over the joints and frames of the sign before
-        and of the sign after; distance units a second, and rad/s measured as eq. 1 measures
-        angles. One transition may come as scalars with speeds (2,).
-        """
-        total: Array | float = 0.0
-        for weight, distance, speed, name in (
-            (self.alpha, euclidean, linear_speed, "linear_speed"),
-            (1 - self.alpha, geodesic, angular_speed, "angular_speed"),
+    def predict(self, transitions: Transitions) -> Array:
+        """Return durations in seconds, (N,); signs without speed are an error."""
+        total = np.zeros(len(transitions))
+        for weight, distance, speed in (
+            (self.alpha, "euclidean", "linear_speed"),
+            (1 - self.alpha, "geodesic", "angular_speed"),
         ):
             if weight:
-                total = total + weight * _travel_time(distance, speed, name)
-        return np.asarray(total, dtype=float)
+                total = total + weight * _travel_time(
+                    getattr(transitions, distance), getattr(transitions, speed), speed
+                )
+        return total
 
 
 @dataclass
@@ -119,23 +144,13 @@ class SimpleBoundedDuration(SimpleDuration):
                 expected="0 <= low_s < high_s",
             )
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
+    def predict(self, transitions: Transitions) -> Array:
         """Return durations in seconds, (N,), as `SimpleDuration.predict`, within the bounds."""
-        free = super().predict(
-            geodesic, euclidean, linear_speed=linear_speed, angular_speed=angular_speed
-        )
-        return np.asarray(np.clip(free, self.low_s, self.high_s))
+        return np.asarray(np.clip(super().predict(transitions), self.low_s, self.high_s))
 
 
 @dataclass
-class LinearDuration:
+class LinearDuration(DurationModel):
     """LINEAR_DURATION: the straight line of Fig. 7 over the mean of the normalised distances.
 
     Each distance has its mean taken off and is divided by its range (5.1), both learnt in
@@ -150,21 +165,12 @@ class LinearDuration:
     n: int = 0
     mean_error_s: float = float("nan")
 
-    def fit(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        duration_s: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> LinearDuration:
+    def fit(self, transitions: Transitions) -> Self:
         """Fit to transitions; fewer than three, or distances that do not vary, are an error."""
-        y = np.asarray(duration_s, dtype=float)
-        pair = [np.asarray(d, dtype=float) for d in (geodesic, euclidean)]
-        if np.isnan(pair[0]).all():
-            pair = [np.full(len(y), np.nan), pair[1]]
-        used = [d for d in pair if not np.isnan(d).all()]
+        y = transitions.duration_s
+        pair = (transitions.geodesic, transitions.euclidean)
+        there = [not np.isnan(d).all() for d in pair]
+        used = [d for d, t in zip(pair, there, strict=True) if t]
         if not used or not (np.isfinite(y).all() and all(np.isfinite(d).all() for d in used)):
             raise _missing("LINEAR")
         if len(y) < 3 or all(np.ptp(d) == 0 for d in used):
@@ -173,14 +179,13 @@ class LinearDuration:
                 place="LINEAR",
                 expected="three transitions or more whose distances differ",
             )
-        there = [not np.isnan(d).all() for d in pair]
         self.centre = np.array(
             [d.mean() if t else np.nan for d, t in zip(pair, there, strict=True)]
         )
         self.span = np.array(
             [(np.ptp(d) or 1.0) if t else np.nan for d, t in zip(pair, there, strict=True)]
         )
-        x = self.mean_distance(*pair)
+        x = self.mean_distance(transitions)
         if np.ptp(x) <= 1e-12:
             raise SignkinError(
                 "the mean of the normalised distances does not vary",
@@ -191,33 +196,27 @@ class LinearDuration:
         self.theta = np.array([line.intercept, line.slope])
         self.standard_error = np.array([line.intercept_stderr, line.stderr])
         self.n = len(y)
-        self.mean_error_s = float(np.mean(np.abs(y - self.predict(*pair))))
+        self.mean_error_s = float(np.mean(np.abs(y - self.predict(transitions))))
         return self
 
-    def mean_distance(self, geodesic: ArrayLike, euclidean: ArrayLike) -> Array:
+    def mean_distance(self, transitions: Transitions) -> Array:
         """Return the mean of the two distances, normalised as learnt; of the one, if so learnt."""
+        pair = (transitions.geodesic, transitions.euclidean)
         parts = [
-            (np.asarray(d, dtype=float) - c) / s
-            for d, c, s in zip((geodesic, euclidean), self.centre, self.span, strict=True)
+            (d - c) / s
+            for d, c, s in zip(pair, self.centre, self.span, strict=True)
             if not np.isnan(c)
         ]
         return np.asarray(sum(parts) / len(parts), dtype=float)
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
+    def predict(self, transitions: Transitions) -> Array:
         """Return durations in seconds, (N,)."""
         _refuse_unfitted(self.theta, "LINEAR")
-        return np.asarray(self.theta[0] + self.theta[1] * self.mean_distance(geodesic, euclidean))
+        return np.asarray(self.theta[0] + self.theta[1] * self.mean_distance(transitions))
 
 
 @dataclass
-class SurfaceDuration:
+class SurfaceDuration(DurationModel):
     """SURFACE_DURATION (eq. 4): duration = theta_0 + theta_1 geodesic + theta_2 Euclidean.
 
     The least-squares solution of the paper's normal equations, by a QR decomposition, which
@@ -231,18 +230,10 @@ class SurfaceDuration:
     n: int = 0
     mean_error_s: float = float("nan")
 
-    def fit(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        duration_s: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> SurfaceDuration:
-        """Fit to transitions: arrays (N,). Singular or too few equations are an error."""
-        y = np.asarray(duration_s, dtype=float)
-        x = np.column_stack([np.ones(len(y)), geodesic, euclidean]).astype(float)
+    def fit(self, transitions: Transitions) -> Self:
+        """Fit to transitions: singular or too few equations are an error."""
+        y = transitions.duration_s
+        x = np.column_stack([np.ones(len(y)), transitions.geodesic, transitions.euclidean])
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
             raise _missing("surface")
         if len(y) < 4 or np.linalg.matrix_rank(_scaled(x)) < 3:
@@ -266,97 +257,43 @@ class SurfaceDuration:
         half = stats.t.ppf(0.5 + level / 2, self.n - 3) * self.standard_error
         return np.column_stack([self.theta - half, self.theta + half])
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
+    def predict(self, transitions: Transitions) -> Array:
         """Return predicted durations in seconds, (N,)."""
         _refuse_unfitted(self.theta, "surface")
-        g, e = np.asarray(geodesic, dtype=float), np.asarray(euclidean, dtype=float)
-        return np.asarray(self.theta[0] + self.theta[1] * g + self.theta[2] * e)
+        return np.asarray(
+            self.theta[0]
+            + self.theta[1] * transitions.geodesic
+            + self.theta[2] * transitions.euclidean
+        )
 
 
 @dataclass
-class MeanDuration:
+class PrintedSurface(SurfaceDuration):
+    """The surface with the theta that the paper prints: it learns nothing."""
+
+    def fit(self, transitions: Transitions) -> Self:
+        """Return the model itself."""
+        return self
+
+
+@dataclass
+class MeanDuration(DurationModel):
     """The baseline that any model has to beat: the mean duration, whatever the distance."""
 
     mean_s: float = float("nan")
 
-    def fit(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        duration_s: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> MeanDuration:
+    def fit(self, transitions: Transitions) -> Self:
         """Take the mean of the durations."""
-        y = np.asarray(duration_s, dtype=float)
+        y = transitions.duration_s
         if not len(y) or not np.isfinite(y).all():
             raise _missing("MEAN")
         self.mean_s = float(y.mean())
         return self
 
-    def predict(
-        self,
-        geodesic: ArrayLike,
-        euclidean: ArrayLike,
-        *,
-        linear_speed: ArrayLike | None = None,
-        angular_speed: ArrayLike | None = None,
-    ) -> Array:
+    def predict(self, transitions: Transitions) -> Array:
         """Return the mean, once for each transition, (N,)."""
         _refuse_unfitted(np.array([self.mean_s]), "MEAN")
-        return np.full(np.shape(np.asarray(euclidean)), self.mean_s)
-
-
-@dataclass(frozen=True, eq=False)
-class Transitions:
-    """What models learn from and predict for: arrays (N,), speeds (N, 2); NaN is missing."""
-
-    geodesic: Array
-    euclidean: Array
-    duration_s: Array
-    linear_speed: Array
-    angular_speed: Array
-
-    def __len__(self) -> int:
-        """Return the number of transitions."""
-        return len(self.duration_s)
-
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Transitions:
-        """Return some of the transitions."""
-        return Transitions(
-            self.geodesic[chosen],
-            self.euclidean[chosen],
-            self.duration_s[chosen],
-            self.linear_speed[chosen],
-            self.angular_speed[chosen],
-        )
-
-    def teach(self, model: DurationModel) -> DurationModel:
-        """Fit a model to these transitions and return it."""
-        return model.fit(
-            self.geodesic,
-            self.euclidean,
-            self.duration_s,
-            linear_speed=self.linear_speed,
-            angular_speed=self.angular_speed,
-        )
-
-    def ask(self, model: DurationModel) -> Array:
-        """Return what a model predicts for these transitions, in s, (N,)."""
-        return model.predict(
-            self.geodesic,
-            self.euclidean,
-            linear_speed=self.linear_speed,
-            angular_speed=self.angular_speed,
-        )
+        return np.full(len(transitions), self.mean_s)
 
 
 def predict_left_out(
@@ -377,23 +314,16 @@ def predict_left_out(
     out = np.full(len(data), np.nan)
     for i in range(len(labels)):
         held = member == i
-        out[held] = data[held].ask(data[~held].teach(make()))
+        out[held] = make().fit(data[~held]).predict(data[held])
     return out
 
 
-def _travel_time(distance: ArrayLike, speed: ArrayLike | None, name: str) -> Array:
-    if speed is None:
+def _travel_time(distance: Array, speeds: Array, name: str) -> Array:
+    if len(speeds) and np.isnan(speeds).all():
         raise SignkinError(
             f"no {name}",
             place="SIMPLE",
             expected="the mean speeds of the signs before and after, (N, 2)",
-        )
-    speeds = np.asarray(speed, dtype=float)
-    if speeds.shape != (*np.shape(np.asarray(distance)), 2):
-        raise SignkinError(
-            f"{name} has shape {speeds.shape}",
-            place="SIMPLE",
-            expected=f"{(*np.shape(np.asarray(distance)), 2)}: the sign before, the sign after",
         )
     total = speeds.sum(axis=-1)
     if (total <= 0).any():
@@ -402,7 +332,7 @@ def _travel_time(distance: ArrayLike, speed: ArrayLike | None, name: str) -> Arr
             place="SIMPLE",
             expected="signs that move: eq. 3 divides by their speed",
         )
-    return np.asarray(2 * np.asarray(distance, dtype=float) / total)
+    return np.asarray(2 * distance / total)
 
 
 def _missing(place: str) -> SignkinError:

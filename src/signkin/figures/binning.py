@@ -12,12 +12,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from signkin.figures.style import ACCENT, LEFT, MANUAL, PALE, RIGHT
+from signkin.figures.style import LEFT, PALE, RIGHT, SERIES_COLOURS, SERIES_MARKERS
 
-FIT_COLOURS = {0: LEFT, 3: RIGHT, 6: "#1a9aa8"}
-SERIES_COLOURS = (RIGHT, ACCENT, MANUAL, LEFT, "#8a4f9e", "#1a9aa8")
-MARKERS = ("o", "s", "^", "D", "v", "P")
-CHANCE = "chance"
+CHANCE, CLOSED = "chance", "closed form"
+CHANCE_SERIES = (CHANCE, "chance low", "chance high", CLOSED)
 
 
 def plot_curves(points: pd.DataFrame, *, ax: Axes, colours: dict[str, str], ylabel: str) -> Axes:
@@ -92,19 +90,12 @@ def plot_hit_rates(
     95 % band, `closed form` the Poisson formula. by: marks are coloured by `order`, which is
     written beside them, or by `series`.
     """
-    chance = {str(n): r for n, r in points.groupby("series") if str(n).startswith(("chance", "cl"))}
-    if CHANCE in chance:
-        line = chance[CHANCE]
-        ax.fill_between(
-            line["x"], chance["chance low"]["y"], chance["chance high"]["y"], color=PALE, alpha=0.5,
-            lw=0,
-        )  # fmt: skip
-        ax.plot(line["x"], line["y"], color="0.2", ls="--", lw=1.1, label="no discrimination")
-        closed = chance["closed form"]
-        ax.plot(closed["x"], closed["y"], color="0.55", ls=":", lw=1.0, label="1 − exp(−2wλ)")
-    marks = points[~points["series"].isin(list(chance))]
+    _plot_chance(points, ax)
+    # Series are names of signers and signs too: whole names tell the lines from the marks.
+    marks = points[~points["series"].isin(CHANCE_SERIES)]
     cmap = mpl.colormaps["cividis"]
     for i, (name, rows) in enumerate(marks.groupby("series", sort=False)):
+        marker = SERIES_MARKERS[i % len(SERIES_MARKERS)]
         if by == "order":
             orders = rows["label"].astype(float).to_numpy()
             colours = [cmap(order / max(float(orders.max()), 1.0)) for order in orders]
@@ -113,10 +104,10 @@ def plot_hit_rates(
         for row, colour in zip(rows.itertuples(), colours, strict=True):
             ax.errorbar(
                 row.x, row.y, xerr=_error(row.x_error), yerr=_error(row.y_error),
-                marker=MARKERS[i], ms=5.5, color=colour, mec="0.2", mew=0.4, lw=0.9, zorder=3 + i,
+                marker=marker, ms=5.5, color=colour, mec="0.2", mew=0.4, lw=0.9, zorder=3 + i,
             )  # fmt: skip
         shown = "0.4" if by == "order" else colours[0]
-        ax.plot([], [], marker=MARKERS[i], ls="none", color=shown, ms=5, label=str(name))
+        ax.plot([], [], marker=marker, ls="none", color=shown, ms=5, label=str(name))
         if by == "order":
             _write_orders(rows, ax)
     if right is None:
@@ -126,6 +117,17 @@ def plot_hit_rates(
     if legend:
         ax.legend(loc="upper center", bbox_to_anchor=(0.45, -0.2), ncols=2, columnspacing=1.0)
     return ax
+
+
+def _plot_chance(points: pd.DataFrame, ax: Axes) -> None:
+    """Draw the line of no discrimination with its band and the closed form, where there is one."""
+    low, high = (points[points["series"] == f"{CHANCE} {end}"]["y"] for end in ("low", "high"))
+    line, closed = (points[points["series"] == name] for name in (CHANCE, CLOSED))
+    if line.empty:
+        return
+    ax.fill_between(line["x"], low, high, color=PALE, alpha=0.5, lw=0)
+    ax.plot(line["x"], line["y"], color="0.2", ls="--", lw=1.1, label="no discrimination")
+    ax.plot(closed["x"], closed["y"], color="0.55", ls=":", lw=1.0, label="1 − exp(−2wλ)")
 
 
 def _error(value: float) -> float:
@@ -171,8 +173,9 @@ def plot_ratio(points: pd.DataFrame, *, ax: Axes) -> Axes:
         rows = points[points["series"] == name]
         shift = (i - (len(names) - 1) / 2) * 0.1
         ax.errorbar(
-            rows["x"] + shift, rows["y"], yerr=rows["y_error"].fillna(0.0), marker=MARKERS[i % 6],
-            ms=4, lw=1.0, capsize=2, color=SERIES_COLOURS[i % 6], label=name,
+            rows["x"] + shift, rows["y"], yerr=rows["y_error"].fillna(0.0),
+            marker=SERIES_MARKERS[i % len(SERIES_MARKERS)], ms=4, lw=1.0, capsize=2,
+            color=SERIES_COLOURS[i % len(SERIES_COLOURS)], label=name,
         )  # fmt: skip
     ax.set(xlabel="polynomial order S", ylabel="hit rate / false positives a second (s)")
     ax.set_xticks(sorted(points["x"].unique()))

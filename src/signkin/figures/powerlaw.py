@@ -11,9 +11,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from signkin.figures.style import ACCENT, MANUAL, RIGHT
+from signkin.figures.style import SEGMENT_COLOURS
 
-SEGMENT_COLOURS = (RIGHT, ACCENT, MANUAL, "#8a4f9e", "#5a5a5a")
 TIME_MAP = "cividis"
 
 

@@ -11,9 +11,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from signkin.figures.style import ACCENT, LEFT, MANUAL, NEUTRAL, RIGHT
+from signkin.figures.style import NEUTRAL, SETTING_COLOURS
 
-COLOURS = (RIGHT, MANUAL, ACCENT, LEFT)
 MARKERS = ("v", "o", "^", "s", "D")
 PRINTED: dict[str, Any] = {
     "marker": "o", "ms": 8, "mfc": "none", "mec": "0.1", "mew": 0.9, "ls": "none", "zorder": 4,
@@ -32,7 +31,7 @@ def plot_settings(
     points: rows of the table `sensitivity`, with a column `group`. colour, marker: columns
     whose values are told by colour and by shape. paper: the printed value, a dashed line.
     """
-    colours = _kinds(points[colour], COLOURS)
+    colours = _kinds(points[colour], SETTING_COLOURS)
     shapes = _kinds(points[marker], MARKERS)
     spread = np.linspace(-0.33, 0.33, max(len(colours) * len(shapes), 2))
     places = {(c, m): x for (c, m), x in zip(product(colours, shapes), spread, strict=False)}
@@ -65,7 +64,7 @@ def handles(
     """Return legend handles; names: column -> what it is called."""
     out = [
         Line2D([], [], ls="none", marker="o", ms=4, color=c, label=f"{names[colour]} {value}")
-        for value, c in _kinds(points[colour], COLOURS).items()
+        for value, c in _kinds(points[colour], SETTING_COLOURS).items()
     ]
     out += [
         Line2D([], [], ls="none", marker=m, ms=4, color=NEUTRAL, label=f"{names[marker]} {value}")

@@ -19,7 +19,17 @@ MANUAL = "#2e8b3d"
 NEUTRAL = "#5a5a5a"
 PALE = "#b9c4d0"
 ACCENT = "#d98a1f"
+VIOLET = "#8a4f9e"
+TEAL = "#1a9aa8"
 HAND_COLOURS = {"right": RIGHT, "left": LEFT}
+# Endres et al. 2013. Series: bars and marks of groups of trajectories (Fig. 3, 6, 7, A1), and the
+# segments of Fig. 2; orders: fits and densities (Fig. 3A, 4); segments of the ground truth
+# (Fig. 1); settings of what is not printed.
+SERIES_COLOURS = (RIGHT, ACCENT, MANUAL, LEFT, VIOLET, TEAL)
+SERIES_MARKERS = ("o", "s", "^", "D", "v", "P")
+ORDER_COLOURS = {0: LEFT, 3: RIGHT, 6: TEAL}
+SEGMENT_COLOURS = (RIGHT, ACCENT, MANUAL, VIOLET, NEUTRAL)
+SETTING_COLOURS = (RIGHT, MANUAL, ACCENT, LEFT)
 
 PLACES = 6  # decimals of a place in a figure
 WIDTH_IN = 6.9  # a text column of 175 mm

@@ -10,9 +10,8 @@ import pandas as pd
 
 from signkin.audit.ledger import Ledger, audit, evidence_for
 from signkin.audit.paper import Paper, read_paper
+from signkin.checkout import checkout
 from signkin.corpus import load_corpora
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def ledger_of(
@@ -34,7 +33,9 @@ def run_ledger(papers: Sequence[Path], results: Path | None = None) -> Ledger:
     read = [read_paper(folder) for folder in papers]
     if results is None:
         return ledger_of(read, {}, [], Path("results"))
-    folder = Path("corpora") if Path("corpora").is_dir() else ROOT / "corpora"
+    folder = Path("corpora")
+    if not folder.is_dir() and (shipped := checkout()) is not None:
+        folder = shipped / "corpora"
     known = load_corpora(folder, None)
     there = {
         name: corpus.simulator is not None

@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from signkin import tables
 from signkin.errors import SignkinError
+from signkin.settings import Settings
 
 TARGETS = ("all", "naert2017")
 
 
-def rule_graph(snakefile: Path, config: Mapping[str, Any], target: str) -> str:
+def rule_graph(snakefile: Path, settings: Settings, target: str) -> str:
     """Return the graph of the rules that a run consists of, in the DOT language.
 
-    Asks Snakemake itself, with the run's configuration, so that the figure shows the workflow
+    Asks Snakemake itself, with the run's settings, so that the figure shows the workflow
     as it is.
     """
     with tempfile.TemporaryDirectory() as folder:
         configfile = Path(folder) / "config.json"
-        configfile.write_text(json.dumps(config), encoding="utf-8")
+        configfile.write_text(settings.model_dump_json(), encoding="utf-8")
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(snakefile)]
         command += ["--configfile", str(configfile), "--forceall", "--nolock"]
         command += ["--rulegraph", "dot", "--", target]

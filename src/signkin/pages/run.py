@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,13 +12,15 @@ import yaml
 
 import signkin
 from signkin.corpus import Corpus
-from signkin.errors import listed
 from signkin.pages.audit import audit_section
 from signkin.pages.corpora import design, first_rows, origin, sign_columns, titled
-from signkin.report.page import FigureView, Page, Section, TableView
+from signkin.report.page import FigureView, Page, Section, TableView, figure_files
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
 from signkin.studies.endres2013 import report as endres_report
-from signkin.studies.naert2017.durations_report import duration_views
-from signkin.studies.naert2017.synthesis import report as synthesis_report
+from signkin.studies.naert2017 import report as naert_report
+from signkin.studies.naert2017.report import Shown
+from signkin.studies.one_wrist import report as one_wrist_report
 from signkin.tables import read_table
 
 S3 = ".3f"
@@ -31,7 +32,7 @@ class Sources:
     """Where a report's parts lie.
 
     results: the results folder. corpora: those of this run. missing: corpus -> reason.
-    paper, endres: the folders papers/naert2017 and papers/endres2013. config: config.yaml.
+    paper, endres: the folders papers/naert2017 and papers/endres2013. settings: config.yaml.
     """
 
     results: Path
@@ -39,13 +40,7 @@ class Sources:
     missing: Mapping[str, str]
     paper: Path
     endres: Path
-    config: Mapping[str, Any]
-
-    @property
-    def constants(self) -> Mapping[str, str]:
-        """Numbers that the paper prints in its text, as strings."""
-        frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
-        return dict(zip(frame["name"], frame["value"], strict=True))
+    settings: Settings
 
     @property
     def published_n(self) -> int:
@@ -57,9 +52,10 @@ class Sources:
         """Return the file of a table that both studies share."""
         return self.results / corpus / f"{table}.csv"
 
-    def naert(self, corpus: str, name: str) -> Path:
-        """Return a file of Naert et al. 2017 for a corpus."""
-        return self.results / "naert2017" / corpus / name
+    @property
+    def naert(self) -> Shown:
+        """Where the parts of Naert et al. 2017 lie."""
+        return Shown(self.results / "naert2017", self.paper, self.corpora, self.settings)
 
 
 def make_page(sources: Sources) -> Page:
@@ -68,14 +64,11 @@ def make_page(sources: Sources) -> Page:
     exhibits = yaml.safe_load(text)["exhibits"]
     labels = {exhibit["id"]: exhibit for exhibit in exhibits}
     sections = [_summary(sources), _overview(sources, labels), audit_section(sources.results)]
-    for name, corpus in sources.corpora.items():
-        if corpus.tagged:
-            sections.append(_corpus_section(sources, name, labels))
-        elif part := synthesis_report.section(name, corpus, sources.naert(name, ""), labels):
-            sections.append(part)
+    sections += naert_report.sections(sources.naert, labels)
     sections += endres_report.sections(
-        sources.results, sources.endres, sources.corpora, sources.config
+        sources.results, sources.endres, sources.corpora, legacy(sources.settings)
     )
+    sections += one_wrist_report.sections(sources.results, sources.corpora)
     sections.append(_data_section(sources))
     sections.append(_choices(sources))
     return Page(
@@ -113,8 +106,8 @@ def _summary(sources: Sources) -> Section:
         title="Corpora of this run",
         caption="Transitions between manual tags, overlapping signs left out, zero-length ones "
         "kept; SD with divisor n - 1. The paper (Sign3D, LSF): "
-        f"{sources.published_n} transitions, mean {sources.constants['mean_duration']} s, SD "
-        f"{sources.constants['sd_duration']} s.",
+        f"{sources.published_n} transitions, mean {sources.naert.constants['mean_duration']} s, SD "
+        f"{sources.naert.constants['sd_duration']} s.",
         frame=pd.DataFrame(rows, columns=list(columns)),
         columns=columns,
     )
@@ -142,7 +135,7 @@ def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, objec
     if not corpus.tagged:
         signs = len(about) if corpus.single_signs else None
         return {**row, "signs": signs, "transitions": None, "mean_s": None, "sd_s": None}
-    table2 = read_table(sources.naert(name, "table2.csv"), "table2").set_index("type")
+    table2 = read_table(sources.naert.file(name, "table2.csv"), "table2").set_index("type")
     everything = table2.loc["all"]
     return {
         **row,
@@ -174,287 +167,10 @@ def _overview(sources: Sources, labels: Mapping[str, Any]) -> Section:
         caption="The rules of this run from raw motion to the report, each after those whose "
         "output it takes; the number in brackets is the paper's section.",
         svg=base.with_suffix(".svg"),
-        files=_files(base),
+        files=figure_files(base),
         differs=labels["fig03"]["differs"],
     )
     return Section("overview", "The pipeline", exhibits=(view,))
-
-
-def _files(base: Path) -> tuple[Path, ...]:
-    return tuple(base.with_suffix(s) for s in (".svg", ".pdf", ".csv"))
-
-
-# --- one corpus ------------------------------------------------------------------------------
-
-
-def _corpus_section(sources: Sources, name: str, labels: Mapping[str, Any]) -> Section:
-    corpus = sources.corpora[name]
-    captions = json.loads(sources.naert(name, "captions.json").read_text(encoding="utf-8"))
-    captions |= synthesis_report.captions(sources.naert(name, ""))
-    views: list[TableView | FigureView] = []
-    for identity, exhibit in labels.items():
-        if identity == "table1":
-            views.append(_table1(sources, name, exhibit))
-        elif identity == "table2":
-            views.append(_table2(sources, name, exhibit))
-        elif identity in captions:
-            base = sources.naert(name, identity)
-            views.append(
-                FigureView(
-                    label=exhibit["label"],
-                    title=exhibit["title"],
-                    caption=captions[identity],
-                    svg=base.with_suffix(".svg"),
-                    files=_files(base),
-                    differs=exhibit["differs"],
-                )
-            )
-        if identity == "fig06":
-            views += _refinement(sources, name)
-        if identity == "fig11":
-            views += duration_views(
-                sources.naert(name, ""), sources.config, sources.constants, exhibit,
-                corpus.simulator is not None,
-            )  # fmt: skip
-    views += _left_out(sources, name)
-    views.append(_sign_types(sources, name))
-    views += synthesis_report.views(sources.naert(name, ""), corpus.unit)
-    if corpus.simulator:
-        views += _simulation(sources, name)
-    text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]
-    text.append(f"Licence: {corpus.settings['licence']}. Source: {corpus.settings['citation']}.")
-    return Section(
-        anchor=name,
-        title=name,
-        text=[line for line in text if line],
-        badge="simulated" if corpus.simulator else "real",
-        exhibits=views,
-        notices=_unused_glosses(sources, name),
-    )
-
-
-def _unused_glosses(sources: Sources, name: str) -> list[str]:
-    frame = read_table(sources.naert(name, "lexicon.csv"), "lexicon")
-    unused = frame.loc[frame["occurrences"] == 0, "gloss"]
-    if unused.empty:
-        return []
-    return [
-        f"signs.csv has {len(unused)} glosses that occur in no recording: {listed(unused)}. "
-        "Misspelt, or not needed."
-    ]
-
-
-def _table1(sources: Sources, name: str, exhibit: Mapping[str, str]) -> TableView:
-    path = sources.naert(name, "table1.csv")
-    frame = read_table(path, "table1")
-    translated = int((frame["translation"] != "").sum())
-    told = f"{translated} with a translation" if translated else "the corpus has no translations"
-    columns = {
-        "recording": ("recording", ""),
-        "utterance": ("utterance", ""),
-        "start_s": ("start (s)", ".2f"),
-        "end_s": ("end (s)", ".2f"),
-        "signs": ("signs", "d"),
-        "glosses": ("glosses", ""),
-        "translation": ("translation", ""),
-    }
-    return TableView(
-        label=exhibit["label"],
-        title=exhibit["title"],
-        caption=f"{len(frame)} utterances, {int(frame['signs'].sum())} signs; {told}.",
-        frame=frame,
-        columns=columns,
-        file=path,
-        differs=exhibit["differs"],
-        most=8,
-    )
-
-
-def _table2(sources: Sources, name: str, exhibit: Mapping[str, str]) -> TableView:
-    path = sources.naert(name, "table2.csv")
-    frame = read_table(path, "table2")
-    simulated = sources.corpora[name].simulator is not None
-    rows = frame[frame["published_n"] != ""]
-    caption = (
-        f"Durations in s between manual tags, n = {int(frame['n'].iloc[-1])}, by four-digit type "
-        "(hands and symmetry of the sign before, then of the sign after); SD with divisor n - 1; "
-        "in brackets without outliers. Right: the paper's Table 2"
-    )
-    columns = {
-        "type": ("type", ""),
-        "printed_n": ("number", ""),
-        "printed_mean": ("mean (s)", ""),
-        "printed_sd": ("SD (s)", ""),
-        "published_n": ("paper: number", ""),
-        "published_mean": ("paper: mean (s)", ""),
-        "published_sd": ("paper: SD (s)", ""),
-    }
-    if simulated:
-        columns["equal"] = ("equal in every digit", "")
-        caption += f"; {int((rows['equal'] == 'yes').sum())} of {len(rows)} rows are equal."
-    else:
-        caption += ", another language and corpus: shown for comparison, not expected to agree."
-    single = frame[frame["note"].str.startswith("one value")]
-    if len(single):
-        caption += " A single value has no SD; it is printed as 0, as in the paper."
-    return TableView(
-        label=exhibit["label"],
-        title=exhibit["title"],
-        caption=caption,
-        frame=frame,
-        columns=columns,
-        file=path,
-        differs=exhibit["differs"],
-        emphasis="equal" if simulated else "",
-        most=40,
-    )
-
-
-def _refinement(sources: Sources, name: str) -> Iterator[TableView | FigureView]:
-    path = sources.naert(name, "refinement.csv")
-    settings = sources.config["refinement"]
-    columns = {
-        "hand": ("hand", ""),
-        "measure": ("measure", ""),
-        "value": ("manual tags", S3),
-        "unit": ("unit", ""),
-        "chance": ("random tags", S3),
-        "chance_low": ("2.5 %", S3),
-        "chance_high": ("97.5 %", S3),
-        "n": ("n", "d"),
-        "note": ("note", ""),
-    }
-    yield TableView(
-        label="",
-        title="How the tags lie to the speed minima",
-        caption=f"Window {settings['window_s']:g} s. Chance: {settings['draws']} sets of as many "
-        "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
-        "the sets.",
-        frame=read_table(path, "refinement"),
-        columns=columns,
-        file=path,
-    )
-    base = sources.naert(name, "fig_refinement")
-    yield FigureView(
-        label="",
-        title="Tags and speed minima against chance",
-        caption="Share of manual tags (coloured) with a speed minimum of the hand at most so far "
-        "away, against random tags (grey band: 95 % of the sets). Where the coloured line runs in "
-        "the band, tags are no nearer to minima than chance has it; below the band, farther.",
-        svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
-    )
-
-
-def _left_out(sources: Sources, name: str) -> Iterator[TableView]:
-    path = sources.naert(name, "transitions_left_out.csv")
-    frame = read_table(path, "transitions")
-    if frame.empty:
-        return
-    counts = frame["status"].value_counts()
-    told = [
-        f"{counts.get('zero_length', 0)} of zero length (one sign ends where the next starts; "
-        "counted in all tables)",
-        f"{counts.get('overlap', 0)} overlapping (the next sign starts before the last one ends; "
-        "in no statistic, negative durations)",
-    ]
-    yield TableView(
-        label="",
-        title="Transitions of zero length, and overlapping signs",
-        caption="; ".join(told) + ".",
-        frame=frame,
-        columns={
-            "recording": ("recording", ""),
-            "transition": ("transition", "d"),
-            "previous_gloss": ("sign before", ""),
-            "next_gloss": ("sign after", ""),
-            "start_s": ("from (s)", S3),
-            "end_s": ("to (s)", S3),
-            "duration_s": ("duration (s)", S3),
-            "status": ("status", ""),
-        },
-        file=path,
-        most=6,
-    )
-
-
-def _sign_types(sources: Sources, name: str) -> TableView:
-    path = sources.naert(name, "sign_types.csv")
-    frame = read_table(path, "sign_types")
-    known = frame[frame["lexicon"] != ""]
-    table = pd.crosstab(frame["lexicon"].replace("", "not in signs.csv"), frame["kinematic"])
-    agree = int((known["lexicon"] == known["kinematic"]).sum())
-    told = (
-        f"Of {len(known)} signs with a type in signs.csv, motion alone gives the same type to "
-        f"{agree} ({agree / len(known):.0%}). "
-        if len(known)
-        else "No gloss stands in signs.csv. "
-    )
-    columns: dict[str, tuple[str, str]] = {"lexicon": ("lexicon \\ from motion", "")}
-    columns |= {str(kind): (str(kind) or "none", "d") for kind in table.columns}
-    return TableView(
-        label="",
-        title="Sign types: lexicon and motion",
-        caption=told + "The lexicon goes first; types from motion are marked kinematic in "
-        "transitions.csv. Two digits: hands (0 one, 1 two, 2 one with the other keeping the "
-        "context), symmetry.",
-        frame=table.reset_index(),
-        columns=columns,
-        file=path,
-    )
-
-
-def _simulation(sources: Sources, name: str) -> Iterator[TableView | FigureView]:
-    error_path = sources.naert(name, "truth_error.csv")
-    yield TableView(
-        label="",
-        title="Error of the tags to the true boundaries",
-        caption="Mean absolute error before and after refinement, with 95 % bootstrap intervals.",
-        frame=read_table(error_path, "truth_error"),
-        columns={
-            "hand": ("hand", ""),
-            "segmentation": ("tags", ""),
-            "n": ("n", "d"),
-            "mean_error_s": ("mean error (s)", ".4f"),
-            "low_s": ("2.5 %", ".4f"),
-            "high_s": ("97.5 %", ".4f"),
-            "median_error_s": ("median (s)", ".4f"),
-            "within_20ms": ("within 0.02 s", ".0%"),
-        },
-        file=error_path,
-    )
-    path = sources.naert(name, "surface.csv")
-    frame = read_table(path, "surface")
-    unit = sources.config["transitions"]["euclidean_unit_m"]
-    yield TableView(
-        label="",
-        title="The duration surface found again (eq. 4)",
-        caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
-        f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
-        f"paper: {sources.constants['mean_error']} s). Designed: the same fit on the distances "
-        "that the simulation was made to have between the true boundaries; the tags stand off "
-        "these, which shifts the fit.",
-        frame=frame,
-        columns={
-            "coefficient": ("coefficient", ""),
-            "published": ("printed", ""),
-            "designed": ("designed", ".6f"),
-            "fitted": ("fitted", ".6f"),
-            "low": ("95 % low", ".4f"),
-            "high": ("95 % high", ".4f"),
-            "shift_percent": ("shift (%)", "+.1f"),
-        },
-        file=path,
-    )
-    base = sources.naert(name, "fig_simulation")
-    yield FigureView(
-        label="",
-        title="Truth found again",
-        caption="Left: share of tags over their error to the true boundary, before (dashed) and "
-        "after refinement. Right: coefficients of the surface over the printed ones.",
-        svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
-    )
 
 
 # --- data and choices ------------------------------------------------------------------------
@@ -501,17 +217,17 @@ def _recordings(sources: Sources, name: str, frame: pd.DataFrame) -> TableView:
 
 def _speeds(sources: Sources, name: str, recordings: int) -> FigureView:
     base = sources.results / name / "fig_speed"
-    lowpass = sources.config["kinematics"]["lowpass"]
+    lowpass = sources.settings.kinematics.lowpass
     shown = min(recordings, SPEED_PANELS)
     return FigureView(
         label="",
         title=titled("Wrist speed", sources.corpora[name]),
         caption="Speed of the right (blue) and left (red) wrist with their local minima (dots) in "
-        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass['method']}, "
-        f"half gain at {lowpass['cutoff_hz']:g} Hz. The corpus has no tags, so there is nothing to "
+        f"{shown} of {recordings} recordings, spread over the list; low-pass: {lowpass.method}, "
+        f"half gain at {lowpass.cutoff_hz:g} Hz. The corpus has no tags, so there is nothing to "
         "refine.",
         svg=base.with_suffix(".svg"),
-        files=[base.with_suffix(s) for s in (".svg", ".pdf")],
+        files=figure_files(base, ".svg", ".pdf"),
     )
 
 
@@ -531,7 +247,7 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
         parts.append(
             f"Gaps at {gaps['joint'].nunique()} joints: {int(gaps['missing_frames'].sum())} "
             f"missing positions, {int(gaps['filled_frames'].sum())} of them filled (gaps up to "
-            f"{sources.config['kinematics']['longest_gap_s']:g} s); the longest gap lasts "
+            f"{sources.settings.kinematics.longest_gap_s:g} s); the longest gap lasts "
             f"{worst['longest_gap_s']:.2f} s ({worst['joint']}, {worst['recording']})."
         )
     told = ", ".join(
@@ -542,7 +258,7 @@ def _about(sources: Sources, name: str, frame: pd.DataFrame) -> str:
 
 
 def _choices(sources: Sources) -> Section:
-    rows = list(_flat(sources.config))
+    rows = list(_flat(sources.settings.model_dump()))
     view = TableView(
         label="",
         title="config.yaml",

@@ -1,11 +1,19 @@
-"""A drawn figure with the numbers in it and what its caption tells."""
+"""A drawn figure with the numbers in it and what its caption tells, and writing them."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
+
+from signkin import exhibits, tables
+from signkin.errors import SignkinError, listed
+from signkin.exhibits import Exhibit
+from signkin.figures.style import save
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,3 +23,29 @@ class Drawn:
     figure: Figure
     data: pd.DataFrame
     caption: str
+
+
+def write_figures(
+    drawn: Mapping[str, Drawn],
+    listing: Iterable[Exhibit],
+    folder: str | Path,
+    captions: str | Path,
+    unit: str,
+) -> None:
+    """Write figures with their numbers below `folder`, and all captions as JSON.
+
+    drawn: stem -> figure; exactly what is listed. unit: of the corpus, for the tables' columns.
+    """
+    wanted = {exhibit.stem: exhibit for exhibit in listing}
+    if set(wanted) != set(drawn):
+        raise SignkinError(
+            f"{listed(sorted(wanted))} are listed, {listed(sorted(drawn))} are drawn",
+            file=exhibits.FILE,
+            expected="a drawing for each figure of the list",
+        )
+    for stem, exhibit in wanted.items():
+        base = Path(folder) / stem
+        save(drawn[stem].figure, base.with_suffix(".svg"), base.with_suffix(".pdf"))
+        tables.write_table(drawn[stem].data, base.with_suffix(".csv"), exhibit.table, unit)
+    told = {stem: drawn[stem].caption for stem in wanted}
+    Path(captions).write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

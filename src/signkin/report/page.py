@@ -76,6 +76,11 @@ class Page:
     missing: Mapping[str, str] = field(default_factory=dict)
 
 
+def figure_files(base: Path, *suffixes: str) -> tuple[Path, ...]:
+    """Return the files of a figure: SVG, PDF and the drawn data as CSV, or those asked for."""
+    return tuple(base.with_suffix(s) for s in (suffixes or (".svg", ".pdf", ".csv")))
+
+
 def render(page: Page, home: Path) -> str:
     """Return the page as HTML; home: the folder it will lie in, for links to files."""
     environment = Environment(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -19,6 +19,7 @@ from signkin.kinematics.gaps import fill_gaps, longest_stretch_s
 from signkin.kinematics.minima import minima_with_depth
 from signkin.kinematics.plausibility import check_recording
 from signkin.recording import Recording
+from signkin.settings.sections import Kinematics as KinematicsSettings
 from signkin.stages.ingest import excluded_row, lead
 
 
@@ -38,7 +39,7 @@ class Kinematics:
 
 
 def kinematics(
-    corpus: Corpus, recordings: Iterable[Recording], settings: Mapping[str, Any]
+    corpus: Corpus, recordings: Iterable[Recording], settings: KinematicsSettings
 ) -> Kinematics:
     """Analyse the wrists of each recording; settings: the section `kinematics` of config.yaml.
 
@@ -48,7 +49,7 @@ def kinematics(
     for recording in recordings:
         start = lead(corpus, recording.name)
         out.plausibility += [{**start, **asdict(f)} for f in check_recording(recording)]
-        out.gaps += [{**start, **row} for row in _gap_rows(recording, settings["longest_gap_s"])]
+        out.gaps += [{**start, **row} for row in _gap_rows(recording, settings.longest_gap_s)]
         try:
             frame, minima = _wrists(recording, settings)
         except SignkinError as error:
@@ -84,7 +85,7 @@ def _gap_rows(recording: Recording, longest_gap_s: float) -> list[dict[str, Any]
 
 
 def _wrists(
-    recording: Recording, settings: Mapping[str, Any]
+    recording: Recording, settings: KinematicsSettings
 ) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
     unit, rate = recording.unit, recording.rate_hz
     columns: dict[str, Any] = {
@@ -94,11 +95,9 @@ def _wrists(
     }
     speeds = {}
     for hand in HANDS:
-        filled, was_gap = fill_gaps(
-            recording.track(f"{hand}_wrist"), rate, settings["longest_gap_s"]
-        )
+        filled, was_gap = fill_gaps(recording.track(f"{hand}_wrist"), rate, settings.longest_gap_s)
         _refuse_riddled(recording, hand, filled, settings)
-        path = lowpass(filled, rate, **settings["lowpass"])
+        path = lowpass(filled, rate, **dict(settings.lowpass))
         speeds[hand] = speed(path, rate)
         for axis, letter in enumerate("xyz"):
             columns[f"{hand}_wrist_{letter}_{unit}"] = path[:, axis]
@@ -110,8 +109,8 @@ def _wrists(
         times, lows, depths = minima_with_depth(
             values,
             rate,
-            prominence=settings["minima"]["prominence"] * fastest,
-            spacing_s=settings["minima"]["spacing_s"],
+            prominence=settings.minima.prominence * fastest,
+            spacing_s=settings.minima.spacing_s,
         )
         minima += [
             {
@@ -126,16 +125,16 @@ def _wrists(
 
 
 def _refuse_riddled(
-    recording: Recording, hand: str, filled: np.ndarray, settings: Mapping[str, Any]
+    recording: Recording, hand: str, filled: np.ndarray, settings: KinematicsSettings
 ) -> None:
     missing = float(np.isnan(filled).any(axis=1).mean())
-    if missing > settings["most_missing"]:
+    if missing > settings.most_missing:
         raise SignkinError(
             f"{missing:.0%} of the frames have no position, gaps up to "
-            f"{settings['longest_gap_s']:g} s filled",
+            f"{settings.longest_gap_s:g} s filled",
             file=f"recording {recording.name}",
             place=f"joint {hand}_wrist",
-            expected=f"at most {settings['most_missing']:.0%} (kinematics.most_missing)",
+            expected=f"at most {settings.most_missing:.0%} (kinematics.most_missing)",
             todo="Mend the tracking, or set `on_error: skip` in corpus.yaml to leave such "
             "recordings out.",
         )

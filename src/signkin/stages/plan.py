@@ -11,18 +11,19 @@ from signkin.corpus import (
     Corpus,
     Entry,
     check_files,
-    check_schema,
     data_dir_of,
     data_folder,
     load_corpora,
 )
 from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
+from signkin.settings import Settings, load_settings
+from signkin.settings.checks import check_rate
 
 
 @dataclass(frozen=True)
 class Plan:
-    """The corpora of a run.
+    """The corpora of a run, and its settings.
 
     corpora: those whose data are there, by name. folders: their data folders.
     missing: corpus -> why it is left out of this run.
@@ -31,7 +32,7 @@ class Plan:
     corpora: Mapping[str, Corpus]
     folders: Mapping[str, Path]
     missing: Mapping[str, str]
-    recordings_per_job: int
+    settings: Settings
     root: Path
     papers: Path
 
@@ -100,12 +101,12 @@ class Plan:
     def shards(self, corpus: str) -> list[str]:
         """Return the names of a corpus's shards, `0001` and so on."""
         n = len(self.corpora[corpus].entries)
-        return [f"{i + 1:04d}" for i in range((n - 1) // self.recordings_per_job + 1)]
+        return [f"{i + 1:04d}" for i in range((n - 1) // self.settings.recordings_per_job + 1)]
 
     def entries(self, corpus: str, shard: str) -> list[Entry]:
         """Return the recordings of a shard."""
-        first = (int(shard) - 1) * self.recordings_per_job
-        return list(self.corpora[corpus].entries[first : first + self.recordings_per_job])
+        first = (int(shard) - 1) * self.settings.recordings_per_job
+        return list(self.corpora[corpus].entries[first : first + self.settings.recordings_per_job])
 
     def names(self, corpus: str, shard: str) -> list[str]:
         """Return the names of the recordings of a shard."""
@@ -147,25 +148,17 @@ class Plan:
 def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "results") -> Plan:
     """Check the configuration and every corpus, and find out what can be run.
 
-    root: the folder of the Snakefile, where corpora and papers lie unless the working
-    directory has homes of its own of these names.
+    config: the content of config.yaml. root: the folder of the Snakefile, where corpora and papers
+    lie unless the working directory has homes of its own of these names.
     """
-    check_schema(dict(config), "config", "config.yaml")
+    settings = load_settings(config)
     root = Path(root)
     corpora = load_corpora(
-        _own_or_shipped(config["corpora_dir"], root),
-        None if config["corpora"] == "all" else list(config["corpora"]),
+        _own_or_shipped(settings.corpora_dir, root),
+        None if settings.corpora == "all" else list(settings.corpora),
     )
-    for wanted in config["synthesis"]["utterances"]:
-        homes = (Path(config["corpora_dir"]), root / config["corpora_dir"])
-        if not any((folder / wanted["corpus"]).is_dir() for folder in homes):
-            raise SignkinError(
-                f"no corpus {wanted['corpus']!r}",
-                file="config.yaml",
-                place=f"key synthesis.utterances, {wanted['name']}",
-                expected=listed(corpora),
-            )
-    data_dir = data_dir_of(config)
+    _check_utterances(settings, root, corpora)
+    data_dir = data_dir_of(settings.data_dir)
     if data_dir is not None and not Path(data_dir).is_dir():
         raise SignkinError(
             f"there is no folder {data_dir}",
@@ -183,16 +176,31 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
             continue
         if corpus.simulator is None:
             check_files(corpus, folder)
+        if corpus.declared_rate_hz is not None:
+            check_rate(settings, corpus.declared_rate_hz, name, "config.yaml")
         there[name], folders[name] = corpus, folder
     order = sorted(there, key=lambda name: (there[name].simulator is None, name))
     return Plan(
         corpora={name: there[name] for name in order},
         folders=folders,
         missing=missing,
-        recordings_per_job=config["recordings_per_job"],
+        settings=settings,
         root=root,
-        papers=_own_or_shipped(config["papers_dir"], root),
+        papers=_own_or_shipped(settings.papers_dir, root),
     )
+
+
+def _check_utterances(settings: Settings, root: Path, corpora: Mapping[str, Corpus]) -> None:
+    """Refuse an utterance of a corpus that has no folder; one that is not in the run may stand."""
+    homes = (Path(settings.corpora_dir), root / settings.corpora_dir)
+    for wanted in settings.synthesis.utterances:
+        if not any((folder / wanted.corpus).is_dir() for folder in homes):
+            raise SignkinError(
+                f"no corpus {wanted.corpus!r}",
+                file="config.yaml",
+                place=f"key synthesis.utterances, {wanted.name}",
+                expected=listed(corpora),
+            )
 
 
 def _own_or_shipped(folder: str, root: Path) -> Path:

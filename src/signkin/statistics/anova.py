@@ -19,10 +19,15 @@ from statsmodels.stats.oneway import anova_oneway
 
 from signkin.errors import listed
 from signkin.statistics.effects import eta_squared, omega_squared, share_interval
-from signkin.statistics.findings import Finding, Groups, p_text, untestable
+from signkin.statistics.findings import Finding, Groups, Kind, joined, p_text, untestable
 from signkin.statistics.power import power_of_f
 
 NOTHING_VARIES = "all durations within the groups are equal"
+LEVENE, SHAPIRO = "Levene", "Shapiro-Wilk"
+CLASSIC, WELCH, KRUSKAL = "one-way ANOVA", "Welch's ANOVA", "Kruskal-Wallis"
+TYPE_2, TYPE_3 = "factorial ANOVA, type II", "factorial ANOVA, type III"
+ETA, OMEGA = "eta squared", "omega squared"
+PARTIAL_ETA, PARTIAL_OMEGA = f"partial {ETA}", f"partial {OMEGA}"
 
 
 def one_way(groups: Groups, comparison: str, alpha: float, effect_f: float) -> list[Finding]:
@@ -51,97 +56,169 @@ def _told(check: Finding) -> str:
 def _levene(groups: Groups, comparison: str, n: int) -> Finding:
     kept, note = _of_two_or_more(groups)
     if len(kept) < 2:
-        return untestable("Levene", comparison, n, "fewer than two groups of two or more")
+        return untestable(LEVENE, Kind.CHECK, comparison, n, "fewer than two groups of two or more")
     if all(np.ptp(g) == 0 for g in kept.values()):
-        return untestable("Levene", comparison, n, NOTHING_VARIES)
+        return untestable(LEVENE, Kind.CHECK, comparison, n, NOTHING_VARIES)
     found = stats.levene(*kept.values(), center="median")
     m = sum(map(len, kept.values()))
     df = (len(kept) - 1, m - len(kept))
     about = "equal variances? around the median (Brown-Forsythe)"
-    return Finding("Levene", comparison, "W", float(found.statistic), *df, float(found.pvalue),
-                   n=m, note="; ".join(filter(None, (about, note))))  # fmt: skip
+    return Finding(
+        LEVENE,
+        Kind.CHECK,
+        comparison,
+        (),
+        "W",
+        float(found.statistic),
+        *df,
+        float(found.pvalue),
+        n=m,
+    ).noted(about, note)
 
 
 def _shapiro(residuals: NDArray[np.float64], comparison: str) -> Finding:
     n = len(residuals)
     if n < 3 or np.ptp(residuals) == 0:
         why = "fewer than three values" if n < 3 else NOTHING_VARIES
-        return untestable("Shapiro-Wilk", comparison, n, why)
+        return untestable(SHAPIRO, Kind.CHECK, comparison, n, why)
     found = stats.shapiro(residuals)
-    return Finding("Shapiro-Wilk", comparison, "W", float(found.statistic), p=float(found.pvalue),
-                   n=n, note="normal residuals?")  # fmt: skip
+    return Finding(
+        SHAPIRO,
+        Kind.CHECK,
+        comparison,
+        (),
+        "W",
+        float(found.statistic),
+        p=float(found.pvalue),
+        n=n,
+        notes=("normal residuals?",),
+    )
 
 
 def _classic(
     groups: Groups, comparison: str, n: int, alpha: float, effect_f: float, told: str
 ) -> list[Finding]:
-    test = "one-way ANOVA"
     reason = _why_no_anova(groups, n)
     if reason:
-        return [untestable(test, comparison, n, reason)]
+        return [untestable(CLASSIC, Kind.DIFFERENCE, comparison, n, reason)]
     found = stats.f_oneway(*groups.values())
     single = [k for k, g in groups.items() if len(g) == 1]
     note = f"{listed(single)}: one value each, no variance of its own" if single else ""
     df = (len(groups) - 1, n - len(groups))
-    return f_findings(test, comparison, float(found.statistic), df, float(found.pvalue), n,
-                      alpha, effect_f, told, note)  # fmt: skip
+    return f_findings(
+        CLASSIC,
+        comparison,
+        float(found.statistic),
+        df,
+        float(found.pvalue),
+        n,
+        alpha,
+        effect_f,
+        told,
+        (note,),
+    )
 
 
 def _welch(
     groups: Groups, comparison: str, n: int, alpha: float, effect_f: float, told: str
 ) -> list[Finding]:
-    test = "Welch's ANOVA"
     kept, note = _of_two_or_more(groups)
     flat = [k for k, g in kept.items() if np.ptp(g) == 0]
     kept = {k: g for k, g in kept.items() if k not in flat}
     if flat:
-        note = "; ".join(filter(None, (note, f"left out, all durations equal: {listed(flat)}")))
+        note = joined(note, f"left out, all durations equal: {listed(flat)}")
     if len(kept) < 2:
         reason = f"fewer than two groups of two or more that vary ({note or 'one group'})"
-        return [untestable(test, comparison, n, reason)]
+        return [untestable(WELCH, Kind.DIFFERENCE, comparison, n, reason)]
     m = sum(map(len, kept.values()))
     found = anova_oneway(list(kept.values()), use_var="unequal", welch_correction=True)
     df = (float(found.df_num), float(found.df_denom))
-    return f_findings(test, comparison, float(found.statistic), df, float(found.pvalue), m,
-                      alpha, effect_f, told, note, error_df=m - len(kept))  # fmt: skip
+    return f_findings(
+        WELCH,
+        comparison,
+        float(found.statistic),
+        df,
+        float(found.pvalue),
+        m,
+        alpha,
+        effect_f,
+        told,
+        (note,),
+        error_df=m - len(kept),
+    )
 
 
 def _kruskal(groups: Groups, comparison: str, n: int) -> Finding:
-    test = "Kruskal-Wallis"
     if len(groups) < 2:
-        return untestable(test, comparison, n, "fewer than two groups")
+        return untestable(KRUSKAL, Kind.DIFFERENCE, comparison, n, "fewer than two groups")
     if np.ptp(np.concatenate(list(groups.values()))) == 0:
-        return untestable(test, comparison, n, "all durations are equal")
+        return untestable(KRUSKAL, Kind.DIFFERENCE, comparison, n, "all durations are equal")
     found = stats.kruskal(*groups.values())
     return Finding(
-        test, comparison, "H", float(found.statistic), len(groups) - 1, p=float(found.pvalue),
-        effect_name="epsilon squared", effect=float(found.statistic) / (n - 1), n=n,
-        note="of ranks, ties corrected; no interval: the distribution of H under a difference "
-        "is not known",
-    )  # fmt: skip
+        KRUSKAL,
+        Kind.DIFFERENCE,
+        comparison,
+        (),
+        "H",
+        float(found.statistic),
+        len(groups) - 1,
+        p=float(found.pvalue),
+        effect_name="epsilon squared",
+        effect=float(found.statistic) / (n - 1),
+        n=n,
+        notes=(
+            "of ranks, ties corrected",
+            "no interval: the distribution of H under a difference is not known",
+        ),
+    )
 
 
 def f_findings(
-    test: str, comparison: str, f: float, df: tuple[float, float], p: float, n: int,
-    alpha: float, effect_f: float, told: str = "", note: str = "", partial: str = "",
+    test: str,
+    comparison: str,
+    f: float,
+    df: tuple[float, float],
+    p: float,
+    n: int,
+    alpha: float,
+    effect_f: float,
+    told: str = "",
+    notes: tuple[str, ...] = (),
+    names: tuple[str, str] = (ETA, OMEGA),
     error_df: float | None = None,
-) -> list[Finding]:  # fmt: skip
+) -> list[Finding]:
     """Return an F test as two findings: with eta squared and with omega squared.
 
-    error_df: degrees of freedom that turn F into eta squared, where the test's own are no count
-    of values (Welch).
+    names: what the two are called. error_df: degrees of freedom that turn F into eta squared,
+    where the test's own are no count of values (Welch).
     """
     low, high = share_interval(f, *df, n, alpha)
     power = power_of_f(effect_f, *df, n, alpha)
-    effects = {
-        f"{partial}eta squared": eta_squared(f, df[0], df[1] if error_df is None else error_df),
-        f"{partial}omega squared": omega_squared(f, df[0], n),
-    }
+    effects = (
+        eta_squared(f, df[0], df[1] if error_df is None else error_df),
+        omega_squared(f, df[0], n),
+    )
     return [
-        Finding(test, comparison, "F", f, *df, p, name, value, low, high, n, told, power,
-                f"f = {effect_f:g}", note)
-        for name, value in effects.items()
-    ]  # fmt: skip
+        Finding(
+            test,
+            Kind.DIFFERENCE,
+            comparison,
+            (),
+            "F",
+            f,
+            *df,
+            p,
+            name,
+            value,
+            low,
+            high,
+            n,
+            told,
+            power,
+            f"f = {effect_f:g}",
+        ).noted(*notes)
+        for name, value in zip(names, effects, strict=True)
+    ]
 
 
 def _of_two_or_more(groups: Groups) -> tuple[dict[str, NDArray[np.float64]], str]:
@@ -185,7 +262,7 @@ def factorial(
     n = len(data)
     if n == 0 or single:
         reason = f"{listed(single) if single else title}: one level only"
-        return [untestable(f"factorial ANOVA, type {t}", title, n, reason) for t in ("II", "III")]
+        return [untestable(t, Kind.DIFFERENCE, title, n, reason) for t in (TYPE_2, TYPE_3)]
     empty = [f"{a} before {b}" for a in counts.index for b in counts.columns if not counts.at[a, b]]
     note = f"empty cells: {listed(empty)}" if empty else ""
     return [
@@ -197,12 +274,11 @@ def factorial(
 def _type2(
     data: pd.DataFrame, names: tuple[str, str], alpha: float, effect_f: float, note: str
 ) -> list[Finding]:
-    test = "factorial ANOVA, type II"
     n = len(data)
     cells = _ols("y ~ C(cell)", data.assign(cell=data["a"] + "|" + data["b"]))
     reason = _why_no_error(cells)
     if reason:
-        return [untestable(test, f"{names[0]} x {names[1]}", n, reason)]
+        return [untestable(TYPE_2, Kind.DIFFERENCE, f"{names[0]} x {names[1]}", n, reason)]
     both, only_a, only_b = (_ols(f, data) for f in ("y ~ C(a) + C(b)", "y ~ C(a)", "y ~ C(b)"))
     out: list[Finding] = []
     for name, small, large in (
@@ -213,26 +289,39 @@ def _type2(
         df1 = large.df_model_rank - small.df_model_rank
         if df1 < 1:
             reason = "the filled cells leave no degree of freedom to tell it from the rest"
-            out.append(untestable(test, name, n, f"{reason}; {note}" if note else reason))
+            out.append(untestable(TYPE_2, Kind.DIFFERENCE, name, n, joined(reason, note)))
             continue
         rss = [r.fit.ssr for r in (small, large)]
         f = (rss[0] - rss[1]) / df1 / cells.fit.mse_resid
         df = (float(df1), float(cells.fit.df_resid))
-        out += f_findings(test, name, max(f, 0.0), df, float(stats.f.sf(f, *df)), n, alpha,
-                          effect_f, note=note, partial="partial ")  # fmt: skip
+        out += f_findings(
+            TYPE_2,
+            name,
+            max(f, 0.0),
+            df,
+            float(stats.f.sf(f, *df)),
+            n,
+            alpha,
+            effect_f,
+            notes=(note,),
+            names=(PARTIAL_ETA, PARTIAL_OMEGA),
+        )
     return out
 
 
 def _type3(
-    data: pd.DataFrame, counts: pd.DataFrame, names: tuple[str, str], alpha: float,
-    effect_f: float, note: str,
-) -> list[Finding]:  # fmt: skip
-    test = "factorial ANOVA, type III"
+    data: pd.DataFrame,
+    counts: pd.DataFrame,
+    names: tuple[str, str],
+    alpha: float,
+    effect_f: float,
+    note: str,
+) -> list[Finding]:
     title = f"{names[0]} x {names[1]}"
     rows, columns = _largest_block(counts)
     if not rows:
         reason = f"no two levels of each factor have all four cells filled; {note}"
-        return [untestable(test, title, len(data), reason)]
+        return [untestable(TYPE_3, Kind.DIFFERENCE, title, len(data), reason)]
     kept = data[data["a"].isin(rows) & data["b"].isin(columns)]
     left_out = len(data) - len(kept)
     if left_out:
@@ -243,15 +332,25 @@ def _type3(
     model = _ols("y ~ C(a, Sum) * C(b, Sum)", kept)
     reason = _why_no_error(model)
     if reason:
-        return [untestable(test, title, len(kept), reason)]
+        return [untestable(TYPE_3, Kind.DIFFERENCE, title, len(kept), reason)]
     found = anova_lm(model.fit, typ=3)
     out: list[Finding] = []
     terms = {names[0]: "C(a, Sum)", names[1]: "C(b, Sum)", title: "C(a, Sum):C(b, Sum)"}
     for name, term in terms.items():
         row = found.loc[term]
         df = (float(row["df"]), float(found.loc["Residual", "df"]))
-        out += f_findings(test, name, float(row["F"]), df, float(row["PR(>F)"]), len(kept), alpha,
-                          effect_f, note=note, partial="partial ")  # fmt: skip
+        out += f_findings(
+            TYPE_3,
+            name,
+            float(row["F"]),
+            df,
+            float(row["PR(>F)"]),
+            len(kept),
+            alpha,
+            effect_f,
+            notes=(note,),
+            names=(PARTIAL_ETA, PARTIAL_OMEGA),
+        )
     return out
 
 

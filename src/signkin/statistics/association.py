@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from scipy import stats
 from statsmodels.stats.proportion import proportion_confint
 
-from signkin.statistics.findings import Finding, untestable
+from signkin.statistics.findings import Finding, Kind, untestable
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
+ISOCHRONY = "isochrony exponent"
 
 
 def bootstrap(
@@ -47,9 +48,15 @@ def resampled_units(recordings: Sequence[Hashable], least: int) -> tuple[list[Ha
 
 
 def correlations(
-    distance: Array, duration: Array, recordings: Sequence[Hashable], comparison: str,
-    alpha: float, draws: int, least_recordings: int, rng: np.random.Generator,
-) -> list[Finding]:  # fmt: skip
+    distance: Array,
+    duration: Array,
+    recordings: Sequence[Hashable],
+    comparison: str,
+    alpha: float,
+    draws: int,
+    least_recordings: int,
+    rng: np.random.Generator,
+) -> list[Finding]:
     """Return Pearson's and Spearman's correlation with bootstrap intervals."""
     n = len(distance)
     out = []
@@ -57,7 +64,7 @@ def correlations(
     for test, function in tests.items():
         reason = _why_no_line(distance, duration)
         if reason:
-            out.append(untestable(test, comparison, n, reason))
+            out.append(untestable(test, Kind.ASSOCIATION, comparison, n, reason))
             continue
         units, unit = resampled_units(recordings, least_recordings)
 
@@ -72,10 +79,23 @@ def correlations(
         low, high = bootstrap(of, units, draws, alpha, rng)
         r, p = function(distance, duration)
         out.append(
-            Finding(test, comparison, "r", float(r), df2=n - 2, p=float(p),
-                    effect_name="correlation", effect=float(r), effect_low=float(low),
-                    effect_high=float(high), n=n, note=f"interval: bootstrap of {unit}")
-        )  # fmt: skip
+            Finding(
+                test,
+                Kind.ASSOCIATION,
+                comparison,
+                (),
+                "r",
+                float(r),
+                df2=n - 2,
+                p=float(p),
+                effect_name="correlation",
+                effect=float(r),
+                effect_low=float(low),
+                effect_high=float(high),
+                n=n,
+                notes=(f"interval: bootstrap of {unit}",),
+            )
+        )
     return out
 
 
@@ -85,7 +105,6 @@ def isochrony(distance: Array, duration: Array, comparison: str, alpha: float) -
     1: constant speed; 0: isochrony in full, the same duration over any distance. Robust (HC3)
     standard errors. Transitions of zero length or distance have no logarithm: left out, told.
     """
-    test = "isochrony exponent"
     there = (distance > 0) & (duration > 0)
     left = int((~there).sum())
     x, y = distance[there], duration[there]
@@ -93,27 +112,44 @@ def isochrony(distance: Array, duration: Array, comparison: str, alpha: float) -
     note = f"{left} of zero length or distance left out" if left else ""
     reason = _why_no_line(x, y) or ("fewer than four transitions" if n < 4 else "")
     if reason:
-        return untestable(test, comparison, n, reason).noted(note)
+        return untestable(ISOCHRONY, Kind.ASSOCIATION, comparison, n, reason).noted(note)
     fit = sm.OLS(np.log(y), sm.add_constant(np.log(x))).fit(cov_type="HC3", use_t=True)
     low, high = fit.conf_int(alpha)[1]
     return Finding(
-        test, comparison, "t", float(fit.tvalues[1]), df2=n - 2, p=float(fit.pvalues[1]),
-        effect_name="exponent", effect=float(fit.params[1]), effect_low=float(low),
-        effect_high=float(high), n=n,
-        note="0: same duration over any distance, 1: constant speed; p is for 0",
-    ).noted(note)  # fmt: skip
+        ISOCHRONY,
+        Kind.ASSOCIATION,
+        comparison,
+        (),
+        "t",
+        float(fit.tvalues[1]),
+        df2=n - 2,
+        p=float(fit.pvalues[1]),
+        effect_name="exponent",
+        effect=float(fit.params[1]),
+        effect_low=float(low),
+        effect_high=float(high),
+        n=n,
+        notes=("0: same duration over any distance, 1: constant speed", "p is for 0"),
+    ).noted(note)
 
 
 def share(held: NDArray[np.bool_], test: str, comparison: str, alpha: float) -> Finding:
     """Return a share with its Wilson interval."""
     n = len(held)
     if not n:
-        return untestable(test, comparison, n, "no transition has a distance")
+        return untestable(test, Kind.SHARE, comparison, n, "no transition has a distance")
     low, high = proportion_confint(int(held.sum()), n, alpha=alpha, method="wilson")
     return Finding(
-        test, comparison, effect_name="share", effect=float(held.mean()), effect_low=float(low),
-        effect_high=float(high), n=n, note="no test: the diamond is drawn to hold this share",
-    )  # fmt: skip
+        test,
+        Kind.SHARE,
+        comparison,
+        effect_name="share",
+        effect=float(held.mean()),
+        effect_low=float(low),
+        effect_high=float(high),
+        n=n,
+        notes=("no test: the diamond is drawn to hold this share",),
+    )
 
 
 def _why_no_line(x: Array, y: Array) -> str:

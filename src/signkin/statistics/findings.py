@@ -1,13 +1,15 @@
 """What a test found, in one shape for all tests: a row of statistics.csv.
 
 An empty number is one that the test does not have, or that these data do not allow; the note
-says which.
+says which. What others want to know of a finding stands in a field of its own: no text is taken
+apart again. Sentences about several findings are made by those who ask the question.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
+from enum import StrEnum
 
 import numpy as np
 import pandas as pd
@@ -17,18 +19,36 @@ NAN = float("nan")
 Groups = Mapping[str, NDArray[np.float64]]
 
 
+class Kind(StrEnum):
+    """What a finding answers."""
+
+    CHECK = "check"  # do the data meet what a test assumes?
+    DIFFERENCE = "difference"  # do all these groups differ?
+    PAIR = "pair"  # do these two, among many?
+    EQUIVALENCE = "equivalence"  # are they the same within a bound?
+    SENSITIVITY = "sensitivity"  # what could this design have found?
+    VARIANCE = "variance"  # how much lies between signers, between recordings?
+    ASSOCIATION = "association"  # does one number go with another?
+    SHARE = "share"
+    WORDS = "words"  # what follows from the others
+
+
 @dataclass(frozen=True)
 class Finding:
     """One test, and one of its effect sizes.
 
-    comparison: what is set against what. statistic: of the kind `statistic_name` (F, H, t, ...).
-    effect: of the kind `effect_name`, with its interval. power: of this test at this n, for the
-    effect named in `power_for`. assumptions: checks in words. note: why a value is missing, and
-    what else must be known to read the row.
+    comparison: what is set against what, in words. groups: the two labels compared, where it is
+    two. statistic: of the kind `statistic_name` (F, H, t, ...). effect: of the kind
+    `effect_name`, with its interval. assumptions: checks in words. power: of this test at this n,
+    for the effect named in `power_for`. spread_s: the SD of the true means (s) that the effect
+    stands for. decisive: whether the question is decided by it. reason: why there is no test.
+    notes: what else must be known to read the row.
     """
 
     test: str
+    kind: Kind
     comparison: str = ""
+    groups: tuple[str, ...] = ()
     statistic_name: str = ""
     statistic: float = NAN
     df1: float = NAN
@@ -42,30 +62,47 @@ class Finding:
     assumptions: str = ""
     power: float = NAN
     power_for: str = ""
-    note: str = field(default="")
+    spread_s: float = NAN
+    decisive: bool = False
+    reason: str = ""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def note(self) -> str:
+        """Reason and notes as one text."""
+        why = (f"not testable: {self.reason}",) if self.reason else ()
+        return joined(*why, *self.notes)
 
     def noted(self, *notes: str) -> Finding:
-        """Return the finding with more notes."""
-        return replace(self, note="; ".join(part for part in (self.note, *notes) if part))
+        """Return the finding with more notes; empty ones are none."""
+        return replace(self, notes=(*self.notes, *filter(None, notes)))
 
 
-NAMES = tuple(f.name for f in fields(Finding))
+# As in tables.TABLES["statistics"].
+COLUMNS = ("test", "kind", "comparison", "statistic_name", "statistic", "df1", "df2", "p",
+           "effect_name", "effect", "effect_low", "effect_high", "n", "assumptions", "power",
+           "power_for", "spread_s", "decisive", "note")  # fmt: skip
 
 
-def untestable(test: str, comparison: str, n: int, reason: str) -> Finding:
+def untestable(test: str, kind: Kind, comparison: str, n: int, reason: str) -> Finding:
     """Return a row that says that, and why, a test cannot be made."""
-    return Finding(test, comparison, n=n, note=f"not testable: {reason}")
+    return Finding(test, kind, comparison, n=n, reason=reason)
 
 
 def table(findings: Iterable[Finding]) -> pd.DataFrame:
     """Return findings as a frame, one row each."""
-    return pd.DataFrame([[getattr(f, n) for n in NAMES] for f in findings], columns=list(NAMES))
+    return pd.DataFrame([[getattr(f, n) for n in COLUMNS] for f in findings], columns=list(COLUMNS))
 
 
 def grouped(values: NDArray[np.float64], labels: Iterable[str]) -> dict[str, NDArray[np.float64]]:
     """Return label -> values, labels in order."""
     series = pd.Series(values).groupby(np.asarray(list(labels), dtype=object), sort=True)
     return {str(label): group.to_numpy(dtype=float) for label, group in series}
+
+
+def joined(*texts: str) -> str:
+    """Return texts as one, empty ones left out."""
+    return "; ".join(filter(None, texts))
 
 
 def p_text(p: float) -> str:

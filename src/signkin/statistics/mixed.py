@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-import statsmodels.formula.api as smf
 from scipy import stats
 
-from signkin.statistics.findings import Finding, untestable
+from signkin.errors import SignkinError
+from signkin.statistics.findings import Finding, Kind, untestable
+from signkin.statistics.nested import OPTIMISERS, Maximum, Nested, maximum
 
 TEST = "mixed model, likelihood ratio"
-EDGE = 1e-5  # a gain in log-likelihood that is none
 WITHIN = "transition (within)"
 FEW_LEVELS = 5  # below it a variance between levels is hardly known
 
@@ -23,78 +22,116 @@ def mixed_model(data: pd.DataFrame, comparison: str) -> list[Finding]:
 
     data: duration_s, group, signer, recording. Random: an intercept a signer, and one a
     recording in it; where there is one signer, an intercept a recording. Fitted by maximum
-    likelihood with and without `group`. With it come the SDs of the random effects.
+    likelihood with and without `group`, each by several optimisers (`nested.maximum`); what they
+    say of convergence is told. With it come the SDs of the random effects.
     """
     n = len(data)
-    signers, recordings = data["signer"].nunique(), data["recording"].nunique()
-    if data["group"].nunique() < 2:
-        return [untestable(TEST, comparison, n, "fewer than two groups")]
-    if recordings < 2:
-        return [untestable(TEST, comparison, n, "one recording only: no random effect to tell")]
-    if np.ptp(data["duration_s"]) == 0:
-        return [untestable(TEST, comparison, n, "all durations are equal")]
-    recording = "recording" if signers > 1 and recordings > signers else ""
-    outer = "signer" if signers > 1 else "recording"
-    told = [f"random intercepts: {' and '.join(filter(None, (outer, recording)))}"]
-    counts = {"signer": signers, "recording": recordings}
-    few = [k for k in filter(None, (outer, recording)) if counts[k] < FEW_LEVELS]
-    told += [f"{counts[k]} {k}s only: their variance is hardly known" for k in few]
-    caught: set[str] = set()
-    full = _fit("duration_s ~ C(group)", data, outer, recording, caught)
-    null = _fit("duration_s ~ 1", data, outer, recording, caught)
+    reason = _why_not(data)
+    if reason:
+        return [untestable(TEST, Kind.DIFFERENCE, comparison, n, reason)]
+    levels = _levels(data)
+    try:
+        full, null = _fitted(data, levels, groups=True), _fitted(data, levels, groups=False)
+    except SignkinError as error:
+        return [untestable(TEST, Kind.DIFFERENCE, comparison, n, error.found)]
     if full.variances[WITHIN] <= 1e-20:
-        return [untestable(TEST, comparison, n, "all durations within the groups are equal")]
-    ratio = max(0.0, 2 * (full.llf - null.llf))
+        reason = "all durations within the groups are equal"
+        return [untestable(TEST, Kind.DIFFERENCE, comparison, n, reason)]
+    ratio = max(0.0, 2 * (full.maximum.log_likelihood - null.maximum.log_likelihood))
     df = data["group"].nunique() - 1
-    told += sorted(caught)
-    told.append("no effect size: see the variances")
-    out = [Finding(TEST, comparison, "chi squared", ratio, df, p=float(stats.chi2.sf(ratio, df)),
-                   n=n, note="; ".join(told))]  # fmt: skip
+    test = Finding(
+        TEST,
+        Kind.DIFFERENCE,
+        comparison,
+        statistic_name="chi squared",
+        statistic=ratio,
+        df1=df,
+        p=float(stats.chi2.sf(ratio, df)),
+        n=n,
+        notes=(*_notes(data, levels, full, null), "no effect size: see the variances"),
+    )
     total = sum(full.variances.values())
-    for name, variance in full.variances.items():
-        out.append(
-            Finding(
-                "mixed model, random effect", f"{comparison}: {name}", "SD (s)",
-                float(np.sqrt(variance)), effect_name="share of variance",
-                effect=variance / total, n=n,
-                note="of the variance that groups do not explain; no interval: variances near 0 "
-                "have none by maximum likelihood",
-            )
-        )  # fmt: skip
-    return out
+    return [test] + [
+        Finding(
+            "mixed model, random effect",
+            Kind.VARIANCE,
+            f"{comparison}: {name}",
+            statistic_name="SD (s)",
+            statistic=float(np.sqrt(variance)),
+            effect_name="share of variance",
+            effect=variance / total,
+            n=n,
+            notes=(
+                "of the variance that groups do not explain",
+                "no interval: variances near 0 have none by maximum likelihood",
+            ),
+        )
+        for name, variance in full.variances.items()
+    ]
+
+
+def _why_not(data: pd.DataFrame) -> str:
+    if data["group"].nunique() < 2:
+        return "fewer than two groups"
+    if data["recording"].nunique() < 2:
+        return "one recording only: no random effect to tell"
+    if np.ptp(data["duration_s"]) == 0:
+        return "all durations are equal"
+    if (data.groupby("group")["duration_s"].agg(np.ptp) == 0).all():
+        return "all durations within the groups are equal"
+    return ""
+
+
+def _levels(data: pd.DataFrame) -> tuple[str, ...]:
+    """Return the columns with a random intercept, the inner one first."""
+    signers, recordings = data["signer"].nunique(), data["recording"].nunique()
+    if signers == 1:
+        return ("recording",)
+    return ("recording", "signer") if recordings > signers else ("signer",)
 
 
 @dataclass(frozen=True)
 class _Fit:
-    """The log-likelihood of a fit, and its variances by where they come from."""
+    """A maximum, and the variances by where they come from."""
 
-    llf: float
+    maximum: Maximum
     variances: dict[str, float]
 
 
-def _fit(formula: str, data: pd.DataFrame, outer: str, inner: str, caught: set[str]) -> _Fit:
-    """Return the best of the nested fits: least squares, the outer effect, the inner, both.
+def _fitted(data: pd.DataFrame, levels: tuple[str, ...], groups: bool) -> _Fit:
+    y = data["duration_s"].to_numpy(dtype=float)
+    x = np.ones((len(y), 1))
+    if groups:
+        dummies = pd.get_dummies(data["group"], drop_first=True).to_numpy(dtype=float)
+        x = np.column_stack([x, dummies])
+    # A recording belongs to one signer; names may be used again by another.
+    codes = [
+        data.groupby([*levels[i:]], sort=True).ngroup().to_numpy(dtype=np.intp)
+        for i in range(len(levels))
+    ]
+    model = Nested(x, y, *codes)
+    found = maximum(model, OPTIMISERS)
+    within = model.residual_variance(found.ratios)
+    between = dict(zip(levels, (found.ratios**2 * within).tolist(), strict=True))
+    return _Fit(found, {level: between[level] for level in reversed(levels)} | {WITHIN: within})
 
-    A variance of exactly 0 makes statsmodels' likelihood infinite or its matrix singular; the
-    model without that effect is then the maximum.
-    """
-    plain = smf.ols(formula, data).fit()
-    nothing = dict.fromkeys(filter(None, (outer, inner)), 0.0)
-    best = _Fit(float(plain.llf), {**nothing, WITHIN: float(plain.ssr / plain.nobs)})
-    plans: list[tuple[str, str]] = [(outer, ""), (inner, ""), (outer, inner)]
-    for group, nested in plans if inner else plans[:1]:
-        extra = {"vc_formula": {nested: f"0 + C({nested})"}} if nested else {}
-        model = smf.mixedlm(formula, data, groups=group, re_formula="1", **extra)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # all of them tell of a variance near 0: told below
-            try:
-                fit = model.fit(reml=False, method="lbfgs")
-            except np.linalg.LinAlgError:  # singular on the way: a variance near 0 again
-                continue
-        if np.isfinite(fit.llf) and fit.llf > best.llf + EDGE:
-            between = {**nothing, group: float(np.asarray(fit.cov_re)[0, 0])}
-            if nested:
-                between[nested] = float(fit.vcomp[0])
-            best = _Fit(float(fit.llf), {**between, WITHIN: float(fit.scale)})
-    caught |= {f"no variance between {name}s" for name in nothing if not best.variances[name]}
-    return best
+
+def _notes(data: pd.DataFrame, levels: tuple[str, ...], full: _Fit, null: _Fit) -> list[str]:
+    told = [f"random intercepts: {' and '.join(reversed(levels))}"]
+    counts = {level: data[level].nunique() for level in reversed(levels)}
+    told += [
+        f"{n} {level}s only: their variance is hardly known"
+        for level, n in counts.items()
+        if n < FEW_LEVELS
+    ]
+    told += sorted(
+        f"no variance between {level}s"
+        for level in levels
+        if not (full.variances[level] and null.variances[level])
+    )
+    short = {**null.maximum.short, **full.maximum.short}
+    told.append(
+        f"the best maximum of {len(OPTIMISERS)} optimisers"
+        + (f", {', '.join(short)} stopped short of it" if short else ", which agree")
+    )
+    return told

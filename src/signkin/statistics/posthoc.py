@@ -9,7 +9,7 @@ from scipy import stats
 
 from signkin.errors import listed
 from signkin.statistics.effects import cohens_d
-from signkin.statistics.findings import Finding, Groups, untestable
+from signkin.statistics.findings import Finding, Groups, Kind, joined, untestable
 
 PAIRWISE = {"Tukey HSD": True, "Games-Howell": False}
 
@@ -30,8 +30,8 @@ def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
         n = sum(map(len, kept.values()))
         nothing = all(np.ptp(g) == 0 for g in kept.values())
         if len(kept) < 2 or n - len(kept) < 1 or nothing:
-            reason = "fewer than two groups that vary" + (f"; {note}" if note else "")
-            out.append(untestable(test, comparison, n, reason))
+            reason = joined("fewer than two groups that vary", note)
+            out.append(untestable(test, Kind.PAIR, comparison, n, reason))
             continue
         found = stats.tukey_hsd(*kept.values(), equal_var=equal)
         values = list(kept.values())
@@ -40,11 +40,18 @@ def pairwise(groups: Groups, comparison: str, alpha: float) -> list[Finding]:
             without = "" if np.isfinite(d[0]) else "no d: the two groups have no variance"
             out.append(
                 Finding(
-                    test, f"{comparison}: {a} - {b}", "difference (s)",
-                    float(found.statistic[i, j]), p=float(found.pvalue[i, j]),
-                    effect_name="Cohen's d", effect=d[0], effect_low=d[1], effect_high=d[2],
+                    test,
+                    Kind.PAIR,
+                    f"{comparison}: {a} - {b}",
+                    (a, b),
+                    "difference (s)",
+                    float(found.statistic[i, j]),
+                    p=float(found.pvalue[i, j]),
+                    effect_name="Cohen's d",
+                    effect=d[0],
+                    effect_low=d[1],
+                    effect_high=d[2],
                     n=len(values[i]) + len(values[j]),
-                    note="; ".join(filter(None, (without, note))),
-                )
-            )  # fmt: skip
+                ).noted(without, note)
+            )
     return out

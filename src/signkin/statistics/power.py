@@ -10,7 +10,9 @@ from scipy.optimize import brentq
 from statsmodels.stats.power import TTestIndPower
 
 from signkin.statistics.effects import pooled_sd
-from signkin.statistics.findings import Finding, Groups, untestable
+from signkin.statistics.findings import Finding, Groups, Kind, untestable
+
+DESIGN = "a property of the design, no statistic of these means"
 
 
 def power_of_f(effect_f: float, df1: float, df2: float, n: int, alpha: float) -> float:
@@ -46,33 +48,68 @@ def sensitivity(groups: Groups, comparison: str, alpha: float, power: float) -> 
     filled = [g for g in groups.values() if len(g)]
     n = sum(map(len, filled))
     if len(filled) < 2 or n - len(filled) < 1:
-        return [untestable(test, comparison, n, "fewer than two groups, or one value in each")]
+        return [
+            untestable(
+                test, Kind.SENSITIVITY, comparison, n, "fewer than two groups, or one value in each"
+            )
+        ]
     f = smallest_f(len(filled) - 1, n - len(filled), n, alpha, power)
     sd = pooled_sd(*filled)
     return [
         Finding(
-            test, comparison, "F", df1=len(filled) - 1, df2=n - len(filled),
-            effect_name="Cohen's f", effect=f, n=n, power=power, power_for=f"f = {f:.3f}",
-            note=f"eta squared {f**2 / (1 + f**2):.3f}; an SD of {f * sd:.4f} s of the true means "
-            f"where durations scatter by {sd:.4f} s within groups; a property of the design, no "
-            "statistic of these means",
+            test,
+            Kind.SENSITIVITY,
+            comparison,
+            statistic_name="F",
+            df1=len(filled) - 1,
+            df2=n - len(filled),
+            effect_name="Cohen's f",
+            effect=f,
+            n=n,
+            power=power,
+            power_for=f"f = {f:.3f}",
+            spread_s=f * sd,
+            notes=(f"eta squared {f**2 / (1 + f**2):.3f}", spread_text(f * sd, sd), DESIGN),
         )
-    ]  # fmt: skip
+    ]
+
+
+def spread_text(spread_s: float, within_s: float) -> str:
+    """Return what an effect in seconds means beside the scatter within groups."""
+    return (
+        f"an SD of {spread_s:.4f} s of the true means where durations scatter by {within_s:.4f} s "
+        "within groups"
+    )
 
 
 def sensitivity_of_two(
-    a: np.ndarray, b: np.ndarray, comparison: str, alpha: float, power: float
+    a: np.ndarray,
+    b: np.ndarray,
+    comparison: str,
+    alpha: float,
+    power: float,
+    groups: tuple[str, ...] = (),
 ) -> Finding:
     """Return the smallest difference of two means, in s, that a t test could have found."""
     test = f"smallest difference at {power:.0%} power"
     n = len(a) + len(b)
     if min(len(a), len(b)) < 2:
-        return untestable(test, comparison, n, "a group with fewer than two values")
+        return untestable(
+            test, Kind.SENSITIVITY, comparison, n, "a group with fewer than two values"
+        )
     sd = pooled_sd(a, b)
     d = smallest_d(len(a), len(b), alpha, power)
     return Finding(
-        test, comparison, "t", df2=n - 2, effect_name="difference (s)", effect=d * sd, n=n,
-        power=power, power_for=f"d = {d:.3f}",
-        note="a property of the design, no statistic of these means"
-        + ("" if sd > 0 else "; 0, since nothing varies within the groups"),
-    )  # fmt: skip
+        test,
+        Kind.SENSITIVITY,
+        comparison,
+        groups,
+        "t",
+        df2=n - 2,
+        effect_name="difference (s)",
+        effect=d * sd,
+        n=n,
+        power=power,
+        power_for=f"d = {d:.3f}",
+        notes=(DESIGN,),
+    ).noted("" if sd > 0 else "0, since nothing varies within the groups")

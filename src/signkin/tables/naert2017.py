@@ -289,6 +289,11 @@ _FINAL = (
             ),
             text("outliers", "none (the rule finds none), kept or left out"),
             text("test", "test; `in words`: what follows from the others"),
+            text(
+                "kind",
+                "what it answers: check (of assumptions), difference, pair, equivalence, "
+                "sensitivity (of the design), variance, association, share or words",
+            ),
             text("comparison", "what is compared with what"),
             text("statistic_name", "F, W, H, t, r, chi squared, SD (s) or difference (s)"),
             Column("statistic", "see statistic_name", "value of the statistic"),
@@ -307,6 +312,8 @@ _FINAL = (
             text("assumptions", "checks of the test's assumptions"),
             Column("power", "", "power of this test at this n, for the effect in power_for"),
             text("power_for", "effect that the power is told for"),
+            Column("spread_s", "s", "SD of the true means that the effect stands for"),
+            Column("decisive", "", "whether the question is decided by this row"),
             NOTE,
         ),
     ),

@@ -8,11 +8,10 @@ with job(snakemake):
     from signkin.studies.endres2013.posteriors import study, write_posteriors
     from signkin.studies.endres2013.single_signs import read_trajectories
 
-    out, settings = snakemake.output, snakemake.params.settings
+    out = snakemake.output
     corpus = load_corpus(Path(snakemake.params.corpus))
     trajectories = read_trajectories([snakemake.input.trajectories])
-    found = study(corpus, trajectories, settings, snakemake.threads)
-    tables.write_table(found.table("binning"), out.binning, "binning")
-    tables.write_table(found.table("binning_left_out"), out.left_out, "binning_left_out")
-    tables.write_table(found.table("fitted_truths"), out.truths, "fitted_truths")
+    found = study(corpus, trajectories, snakemake.params.settings, snakemake.threads)
+    for name in ("binning", "fitted_truths", "binning_left_out"):
+        tables.write_table(found.table(name), out[name], name, corpus.unit)
     write_posteriors(out.posteriors, found.fits)

@@ -1,34 +1,25 @@
 from signkin.job import job
 
 with job(snakemake):
-    import json
     from pathlib import Path
 
     from signkin import tables
     from signkin.corpus import load_corpus
-    from signkin.figures.style import paper_style, save
-    from signkin.studies.endres2013 import figures as endres_figures
+    from signkin.exhibits import exhibits, of_groups
+    from signkin.figures.style import paper_style
+    from signkin.report.drawn import write_figures
+    from signkin.studies.endres2013.figures import draw
+    from signkin.studies.endres2013.figures.sources import TABLES, read_sources
 
-    source, out = snakemake.input, snakemake.output
+    source, captions = snakemake.input, Path(snakemake.output.captions)
     corpus = load_corpus(Path(snakemake.params.corpus))
-    frames = {
-        name: tables.read_table(source[name], name)
-        for name in ("ground_truth", "order_posteriors", "hit_rates", "chance_lines", "order_tests")
-    }
+    listing = of_groups(exhibits(Path(source.exhibits).parent), "figures")
+    sources = read_sources(
+        corpus,
+        {name: tables.read_table(source[name], name) for name in TABLES},
+        {name: source[name] for name in ("recordings", "trajectories", "posteriors")},
+        snakemake.params.settings,
+        snakemake.params.seed,
+    )
     with paper_style():
-        drawn = endres_figures.draw(
-            corpus,
-            frames,
-            source.recordings,
-            source.trajectories,
-            source.posteriors,
-            snakemake.params.settings,
-            snakemake.params.seed,
-        )
-        names = endres_figures.FIGURES
-        for name, svg, pdf, csv in zip(names, out.svg, out.pdf, out.csv, strict=True):
-            save(drawn[name].figure, svg, pdf)
-            kind = "fig01_powerlaw" if name == "fig01" else "endres_figure"
-            tables.write_table(drawn[name].data, csv, kind, corpus.unit)
-    captions = {name: figure.caption for name, figure in drawn.items()}
-    Path(out.captions).write_text(json.dumps(captions, indent=1) + "\n", encoding="utf-8")
+        write_figures(draw(sources, listing), listing, captions.parent, captions, corpus.unit)

@@ -2,7 +2,7 @@ from signkin.job import job
 
 with job(snakemake):
     from signkin import tables
-    from signkin.studies.naert2017.durations import statistics
+    from signkin.studies.naert2017.durations_statistics import statistics
 
     rows = statistics(
         snakemake.wildcards.corpus,

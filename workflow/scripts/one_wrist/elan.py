@@ -4,7 +4,7 @@ with job(snakemake):
     from pathlib import Path
 
     from signkin import tables
-    from signkin.studies.one_wrist.long_series import copies
+    from signkin.studies.one_wrist.elan import copies
 
     folder = Path(snakemake.output.folder)
     folder.mkdir(parents=True)

@@ -11,7 +11,7 @@ with job(snakemake):
     from signkin.pages import overview
 
     source, out = snakemake.input, snakemake.output
-    dot = overview.rule_graph(Path(source.snakefile), snakemake.params.config, "all")
+    dot = overview.rule_graph(Path(source.snakefile), snakemake.params.settings, "all")
     notes = overview.rule_notes([Path(path) for path in source.rules])
     rules = overview.layout(overview.parse_rule_graph(dot), notes)
     tables.write_table(rules, out.csv, "overview")

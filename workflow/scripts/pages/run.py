@@ -15,6 +15,6 @@ with job(snakemake):
         missing=snakemake.params.missing,
         paper=Path(snakemake.input.paper[0]).parent,
         endres=Path(snakemake.input.endres).parent,
-        config=snakemake.params.config,
+        settings=snakemake.params.settings,
     )
     page_file.write_text(render(make_page(sources), page_file.parent), encoding="utf-8")

@@ -6,24 +6,22 @@ and bins in config.yaml, on some recordings of a corpus.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
+from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from signkin import tables
 from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hpfpps
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
-from signkin.figures import sensitivity as drawing
-from signkin.figures.style import WIDTH_IN
+from signkin.io.store import read_recordings
 from signkin.recording import Recording
 from signkin.seeds import stream
-from signkin.studies.endres2013.posteriors import FITTED_MAP, Data, Fitted, Study, rows_of
+from signkin.studies.endres2013.posteriors import FITTED_MAP, Data, Fitted, Study, chosen, rows_of
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
 from signkin.studies.endres2013.summaries import RATES_PER_S
 
@@ -32,6 +30,19 @@ from signkin.studies.endres2013.summaries import RATES_PER_S
 PRINTED = {"concentration": 0.1, "bins": 100}
 RECOVERED = 3
 CHANCE_DRAWS = 400
+
+
+def chosen_recordings(
+    paths: Iterable[str | Path], truth: pd.DataFrame, settings: Mapping[str, Any]
+) -> list[Recording]:
+    """Return the recordings to be run: some of those with a ground truth, evenly spread.
+
+    paths: the recordings of all shards. truth: the table `ground_truth`.
+    """
+    names = chosen(
+        list(dict.fromkeys(truth["recording"])), settings["binning"]["sensitivity"]["recordings"]
+    )
+    return [one for path in paths for one in read_recordings(Path(path), names)]
 
 
 def sensitivity(
@@ -184,66 +195,3 @@ def _recovered(
         "recovered_probability": same["order_probability"].mean(),
         "recovered_hit_rate": same["hit_rate"].mean(),
     }
-
-
-# --- drawn -----------------------------------------------------------------------------------
-
-OUTCOMES: dict[str, tuple[str, float | None]] = {
-    "mean_count_order_0": ("mean M, order 0", 13),
-    "mean_count_order_3": ("mean M, order 3", 7),
-    "mean_count_order_7": ("mean M, order 7", 2),
-    "explained_variance_order_3": ("explained variance,\norder 3", 0.99),
-    "order_peak_recorded": ("order peak,\nrecorded", 4),
-    "order_peak_powerlaw": ("order peak,\nground truth", 3),
-    "hit_rate_order_3": ("hit rate,\nground truth", None),
-    "hpfpps_order_3": ("hits / false pos.\na second (s)", None),
-    "recovered_hit_rate": ("hit rate, refound\norder 3", 1.0),
-}
-
-
-def draw(frame: pd.DataFrame) -> Figure:
-    """Draw the table `sensitivity` of one corpus; points on one another differ in bins alone."""
-    points = frame.copy()
-    points["group"] = points["noise"].str.replace(" ", "\n") + "\n" + points["time_unit"]
-    groups = list(dict.fromkeys(points["group"]))
-    figure, axes = plt.subplots(
-        len(OUTCOMES), 1, figsize=(WIDTH_IN * 1.25, 1.15 * len(OUTCOMES) + 1.2), sharex=True
-    )
-    for ax, (column, (label, paper)) in zip(axes, OUTCOMES.items(), strict=True):
-        drawing.plot_settings(
-            points, column, ax=ax, groups=groups, colour="dof", marker="concentration",
-            paper=paper,
-        )  # fmt: skip
-        if column.startswith("mean_count"):
-            ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
-            ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
-            ax.set_ylim(-1.5, 160)
-        ax.set_ylabel(label, fontsize=7.5)
-        ax.tick_params(axis="x", labelsize=7)
-    figure.legend(
-        handles=drawing.handles(
-            points, "dof", "concentration", {"dof": "dof", "concentration": "b"}
-        ),
-        loc="outside upper center", ncols=5,
-    )  # fmt: skip
-    return figure
-
-
-def caption(frame: pd.DataFrame) -> str:
-    """Return what a figure of the table says below it."""
-    n = len(frame)
-    peaks = frame["order_peak_recorded"].value_counts().sort_index()
-    told = ", ".join(f"{int(order)} in {count}" for order, count in peaks.items())
-    seven = int((frame["mean_count_order_3"].round() == 7).sum())
-    paper = frame[(frame["order_peak_recorded"] == 4)]
-    printed = frame[frame["printed"] == "yes"]
-    return (
-        f"{n} settings of what section 3.2 leaves open, on "
-        f"{int(frame['recordings'].max())} recordings: degrees of freedom (colour), "
-        "concentration b (shape), noise and its scale, unit of time (columns), T = "
-        f"{', '.join(str(b) for b in sorted(frame['bins'].unique()))} bins (two marks each). The "
-        f"{len(printed)} ringed ones agree with all that is printed. The order posterior of "
-        f"recorded trajectories peaks at order {told} settings; {len(paper)} settings peak at 4 "
-        f"as the paper's, and {seven} have a mean M of 7 at order 3, "
-        f"{int((paper['mean_count_order_3'].round() == 7).sum())} both."
-    )

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import yaml
 
 from signkin.corpus import Corpus
-from signkin.report.page import FigureView, Section, TableView
+from signkin.exhibits import Exhibit, exhibits, of_groups
+from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.tables import read_table
 
 ALL = "all"
@@ -19,46 +19,46 @@ P3 = ".3f"
 SIMULATED = " Simulated: a test of the method, no evidence about people."
 
 
-def exhibits(paper: Path) -> dict[str, dict[str, str]]:
-    """Return the entries of exhibits.yaml by id. paper: the folder papers/endres2013."""
-    text = (paper / "exhibits.yaml").read_text(encoding="utf-8")
-    return {entry["id"]: entry for entry in yaml.safe_load(text)["exhibits"]}
-
-
 def sections(
     results: Path, paper: Path, corpora: Mapping[str, Corpus], config: Mapping[str, Any]
 ) -> Iterator[Section]:
-    """Yield the sections of all corpora: the model, single signs, then continuous recordings."""
-    labels = exhibits(paper)
+    """Yield the sections of the study: the model, then the corpora of single signs.
+
+    paper: the folder papers/endres2013.
+    """
+    listing = exhibits(paper)
     folder = results / "endres2013"
-    yield _model(folder, labels["fig02"])
+    yield _model(folder, of_groups(listing, "scheme"))
     for name, corpus in corpora.items():
         if corpus.single_signs:
-            yield _single_signs(folder / name, name, corpus, labels, config)
-    for name, corpus in corpora.items():
-        if not corpus.single_signs:
-            yield _continuous(folder / name, name, corpus)
+            shown = of_groups(listing, "figures")
+            yield _single_signs(folder / name, name, corpus, shown, config)
 
 
-def _files(base: Path, *suffixes: str) -> list[Path]:
-    return [base.with_suffix(suffix) for suffix in suffixes or (".svg", ".pdf", ".csv")]
+def figure_views(folder: Path, listing: Iterable[Exhibit], told: str = "") -> Iterator[FigureView]:
+    """Yield the figures of a list, whose files and captions lie in a folder.
+
+    told: what is added to each caption.
+    """
+    captions = json.loads((folder / "captions.json").read_text(encoding="utf-8"))
+    for exhibit in listing:
+        base = folder / exhibit.stem
+        yield FigureView(
+            label=exhibit.label,
+            title=exhibit.title,
+            caption=captions[exhibit.stem] + told,
+            svg=base.with_suffix(".svg"),
+            files=figure_files(base),
+            differs=exhibit.differs,
+        )
 
 
-def _badge(corpus: Corpus) -> str:
+def badge(corpus: Corpus) -> str:
+    """Return whether a corpus is real or simulated."""
     return "simulated" if corpus.simulator else "real"
 
 
-def _model(folder: Path, exhibit: Mapping[str, str]) -> Section:
-    view = FigureView(
-        label=exhibit["label"],
-        title=exhibit["title"],
-        caption="A trajectory of T bins is cut into M + 1 segments by M inner boundaries; the mean "
-        "of segment m is a polynomial of order S in the time since its start, its noise has a "
-        "full covariance. Sums over all segmentations are exact.",
-        svg=folder / "fig02.svg",
-        files=_files(folder / "fig02"),
-        differs=exhibit["differs"],
-    )
+def _model(folder: Path, listing: Iterable[Exhibit]) -> Section:
     return Section(
         "binning",
         "Bayesian binning (Endres, Meirovitch, Flash & Giese 2013)",
@@ -67,30 +67,17 @@ def _model(folder: Path, exhibit: Mapping[str, str]) -> Section:
             "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of "
             "the prior decides its results: each corpus has a figure of how far."
         ],
-        exhibits=(view,),
+        exhibits=tuple(figure_views(folder, listing)),
     )
 
 
 def _single_signs(
-    folder: Path, name: str, corpus: Corpus, labels: Mapping[str, Any], config: Mapping[str, Any]
+    folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], config: Mapping[str, Any]
 ) -> Section:
-    captions = json.loads((folder / "captions.json").read_text(encoding="utf-8"))
     views: list[TableView | FigureView] = [_printed_and_found(folder)]
-    for identity, exhibit in labels.items():
-        if identity not in captions:
-            continue
-        base = folder / identity
-        views.append(
-            FigureView(
-                label=exhibit["label"],
-                title=exhibit["title"],
-                caption=captions[identity] + (SIMULATED if corpus.simulator else ""),
-                svg=base.with_suffix(".svg"),
-                files=_files(base),
-                differs=exhibit["differs"],
-            )
-        )
-        if identity == "fig06":
+    for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
+        views.append(view)
+        if view.svg.stem == "fig06":
             views += [_rates(folder, config), _tests(folder)]
     views.append(
         FigureView(
@@ -98,16 +85,19 @@ def _single_signs(
             title="What the paper does not print decides its results",
             caption=(folder / "sensitivity.txt").read_text(encoding="utf-8").strip(),
             svg=folder / "fig_sensitivity.svg",
-            files=[*_files(folder / "fig_sensitivity", ".svg", ".pdf"), folder / "sensitivity.csv"],
+            files=[
+                *figure_files(folder / "fig_sensitivity", ".svg", ".pdf"),
+                folder / "sensitivity.csv",
+            ],
         )
     )
-    views += _left_out(folder / "left_out.csv")
+    views += left_out(folder / "left_out.csv")
     views += _rejected(folder)
     return Section(
         anchor=f"{name}-binning",
         title=f"{name}: Bayesian binning",
         text=[str(corpus.settings["title"]) + "."],
-        badge=_badge(corpus),
+        badge=badge(corpus),
         exhibits=views,
     )
 
@@ -242,7 +232,11 @@ def _tests(folder: Path) -> TableView:
     )
 
 
-def _left_out(path: Path) -> Iterator[TableView]:
+def left_out(path: Path) -> Iterator[TableView]:
+    """Yield the table of what was not binned, by reason; nothing where all was.
+
+    path: of a table `binning_left_out`.
+    """
     frame = read_table(path, "binning_left_out")
     if frame.empty:
         return
@@ -287,77 +281,4 @@ def _rejected(folder: Path) -> Iterator[TableView]:
             "recordings": ("recordings", "d"),
         },
         file=path,
-    )
-
-
-# --- continuous recordings -------------------------------------------------------------------
-
-
-def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
-    path = folder / "one_wrist.csv"
-    compared = TableView(
-        label="",
-        title="Boundaries, minima and tags of one hand",
-        caption="Hit rates within the window, one to one, mean over recordings; chance: as many "
-        "Poisson events over the whole recording, 95 % of the sets.",
-        frame=read_table(path, "one_wrist"),
-        columns={
-            "hand": ("hand", ""),
-            "found": ("found", ""),
-            "truth": ("held against", ""),
-            "hit_rate": ("hit rate", P3),
-            "chance_hit_rate": ("chance", P3),
-            "chance_low": ("2.5 %", P3),
-            "chance_high": ("97.5 %", P3),
-            "false_positives_per_s": ("no hit, a second", P3),
-            "n_found": ("found", "d"),
-            "n_truth": ("of", "d"),
-            "recordings": ("recordings", "d"),
-            "note": ("note", ""),
-        },
-        file=path,
-    )
-    figure = FigureView(
-        label="",
-        title="Two papers, one wrist",
-        caption=(folder / "one_wrist.txt").read_text(encoding="utf-8").strip()
-        + (SIMULATED if corpus.simulator else ""),
-        svg=folder / "fig_one_wrist.svg",
-        files=_files(folder / "fig_one_wrist"),
-    )
-    views: list[TableView | FigureView] = [figure, compared, _wrists(folder)]
-    views += _left_out(folder / "wrists_left_out.csv")
-    text: Sequence[str] = [
-        "The wrists of continuous recordings, binned as long series: do the segments of one paper "
-        "start and end where the other puts its minima and tags?"
-    ]
-    return Section(
-        anchor=f"{name}-one-wrist",
-        title=f"{name}: two papers, one wrist",
-        text=text,
-        badge=_badge(corpus),
-        exhibits=views,
-    )
-
-
-def _wrists(folder: Path) -> TableView:
-    path = folder / "wrist_posteriors.csv"
-    return TableView(
-        label="",
-        title="Wrists as long series",
-        caption="Cut mass bounds the share of P(M | data) outside of the counts worked out.",
-        frame=read_table(path, "wrist_posteriors"),
-        columns={
-            "recording": ("recording", ""),
-            "hand": ("hand", ""),
-            "n_bins": ("bins", "d"),
-            "bin_s": ("bin (s)", ".4f"),
-            "order": ("order", "d"),
-            "map_count": ("boundaries", "d"),
-            "boundaries_per_s": ("a second", ".2f"),
-            "explained_variance": ("explained variance", ".4f"),
-            "cut_mass": ("cut mass", ".1g"),
-        },
-        file=path,
-        most=8,
     )

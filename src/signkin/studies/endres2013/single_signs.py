@@ -17,25 +17,21 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 from signkin import tables
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
-from signkin.joints import HANDS
 from signkin.kinematics.curvature import curvature
 from signkin.kinematics.derivatives import speed
-from signkin.kinematics.filters import lowpass
-from signkin.kinematics.gaps import fill_gaps
 from signkin.powerlaw import GroundTruth, LeftOut, WarpSettings, active_part, warp_to_power_law
 from signkin.recording import Recording
 from signkin.seeds import stream
 from signkin.stages.ingest import lead
+from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist
 
 Floats = NDArray[np.float64]
 
 RECORDED, POWERLAW = "recorded", "powerlaw"
-SPLINE_ORDER = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,14 +75,16 @@ class SingleSigns:
 
 
 @dataclass(frozen=True, eq=False)
-class Wrist:
-    """The wrist of one recording: low-passed path (F, L), the frames of the movement."""
+class Movement:
+    """The wrist that makes a sign, and the frames of its movement without the rest around it."""
 
-    recording: str
-    hand: str
-    path: Floats
-    rate_hz: float
+    wrist: Wrist
     active: slice
+
+    @property
+    def path(self) -> Floats:
+        """The movement's path, (F, L)."""
+        return self.wrist.path[self.active]
 
 
 def single_signs(
@@ -109,18 +107,18 @@ def single_signs(
             out.left_out.append({**start, "dataset": dataset, "reason": reason})
 
         try:
-            wrist = wrist_of(recording, settings)
-            trajectory = recorded(wrist, bins)
+            movement = movement_of(recording, settings)
+            trajectory = recorded(movement, bins)
         except SignkinError as error:
             for dataset in (RECORDED, POWERLAW):
                 leave_out(dataset, str(error))
             continue
         out.trajectories.append(trajectory)
-        truth = ground_truth(corpus.name, wrist, warp, seed)
+        truth = ground_truth(corpus.name, movement.wrist, warp, seed)
         if isinstance(truth, LeftOut):
             leave_out(POWERLAW, truth.reason)
         else:
-            out.trajectories.append(_warped(wrist, truth, bins))
+            out.trajectories.append(_warped(movement.wrist, truth, bins))
             out.segments += [{**start, **row} for row in _segments(truth, corpus.unit)]
         out.rejected += [
             {**start, "draws": truth.draws, "reason": reason, "rejected": n}
@@ -129,48 +127,18 @@ def single_signs(
     return out
 
 
-def wrist_of(recording: Recording, settings: Mapping[str, Any]) -> Wrist:
-    """Return the low-passed path of the hand that moves more, and the frames of its movement."""
-    paths = {}
-    for hand in HANDS:
-        joint = f"{hand}_wrist"
-        if joint in recording.joints:
-            paths[hand] = fill_gaps(
-                recording.track(joint), recording.rate_hz, settings["kinematics"]["longest_gap_s"]
-            )[0]
-    moved = {hand: _length(path) for hand, path in paths.items()}
-    hand = max(moved, key=lambda name: moved[name])
-    where = f"recording {recording.name}"
-    if np.isnan(paths[hand]).any():
-        raise SignkinError(
-            f"{int(np.isnan(paths[hand]).any(axis=1).sum())} frames without a position",
-            file=where,
-            place=f"{hand}_wrist",
-            expected="a path without long gaps (kinematics.longest_gap_s)",
-        )
-    if not moved[hand] > 0:
-        raise SignkinError(
-            "the wrist does not move", file=where, place=f"{hand}_wrist", expected="a movement"
-        )
-    here = paths[hand]
-    if not here[:, 2].any():  # a flat recording: its third coordinate is 0, and no data
-        here = here[:, :2]
-    try:
-        path = lowpass(here, recording.rate_hz, **settings["binning"]["lowpass"])
-    except SignkinError as error:
-        raise error.at(file=where) from error
-    active = active_part(speed(path, recording.rate_hz), settings["powerlaw"]["active_share"])
-    return Wrist(recording.name, hand, path, recording.rate_hz, active)
+def movement_of(recording: Recording, settings: Mapping[str, Any]) -> Movement:
+    """Return the movement of the hand that moves more (sections 2.2, 2.4)."""
+    longest_gap_s = settings["kinematics"]["longest_gap_s"]
+    hand = moving_hand(recording, longest_gap_s)
+    wrist = ready_wrist(recording, hand, longest_gap_s, settings["binning"]["lowpass"])
+    moving = speed(wrist.path, wrist.rate_hz)
+    return Movement(wrist, active_part(moving, settings["powerlaw"]["active_share"]))
 
 
-def _length(path: Floats) -> float:
-    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
-    return float(np.nansum(steps))
-
-
-def recorded(wrist: Wrist, bins: int) -> Trajectory:
+def recorded(movement: Movement, bins: int) -> Trajectory:
     """Return the movement in bins; as many bins as samples where there are fewer samples."""
-    path = wrist.path[wrist.active]
+    path, wrist = movement.path, movement.wrist
     if len(path) < 2:
         raise SignkinError(
             f"the movement has {len(path)} samples",
@@ -179,21 +147,6 @@ def recorded(wrist: Wrist, bins: int) -> Trajectory:
         )
     x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
     return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0))
-
-
-def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
-    """Return a path (F, L) at the middle of T bins, by a spline, and the bins' duration in s.
-
-    As many bins as samples are the samples.
-    """
-    frames = len(path)
-    if frames == bins:
-        return np.array(path, dtype=float), 1 / rate_hz
-    duration = (frames - 1) / rate_hz
-    bin_s = duration / bins
-    middle = (np.arange(bins) + 0.5) * bin_s
-    curve = make_interp_spline(np.arange(frames) / rate_hz, path, k=min(SPLINE_ORDER, frames - 1))
-    return np.asarray(curve(middle)), bin_s
 
 
 def ground_truth(
@@ -242,42 +195,58 @@ def example_points(
 
     Empty where the recording has no ground truth.
     """
-    wrist = wrist_of(recording, settings)
-    warp = WarpSettings(**settings["powerlaw"])
-    truth = ground_truth(corpus.name, wrist, warp, seed)
+    movement = movement_of(recording, settings)
+    wrist = movement.wrist
+    truth = ground_truth(corpus.name, wrist, WarpSettings(**settings["powerlaw"]), seed)
     if isinstance(truth, LeftOut):
         return tables.empty("fig01_powerlaw", corpus.unit)
-    path = wrist.path[wrist.active]
+    path = movement.path
     time_s = np.arange(len(path)) / wrist.rate_hz
-    cuts = truth.boundaries_recorded_s - wrist.active.start / wrist.rate_hz
-    parts = [
-        _points(
+    cuts = truth.boundaries_recorded_s - movement.active.start / wrist.rate_hz
+    samples = (
+        Samples(
             RECORDED, path, time_s, np.searchsorted(cuts, time_s, side="right"),
             speed(path, wrist.rate_hz), np.maximum(curvature(path), truth.least_curvature),
-            np.full(len(path), np.nan), corpus.unit,
+            np.full(len(path), np.nan),
         ),
-        _points(
+        Samples(
             POWERLAW, truth.positions, truth.time_s, truth.segment, truth.speed,
-            truth.curvature, truth.predicted_speed, corpus.unit,
+            truth.curvature, truth.predicted_speed,
         ),
-    ]  # fmt: skip
+    )  # fmt: skip
+    parts = [_points(one, wrist.axes, corpus.unit) for one in samples]
     frame = pd.concat(parts, ignore_index=True)
     for column, value in reversed(lead(corpus, recording.name).items()):
         frame.insert(0, column, value)
     return frame
 
 
-def _points(
-    dataset: str, path: Floats, time_s: Floats, segment: NDArray[np.int64], v: Floats, k: Floats,
-    predicted: Floats, unit: str,
-) -> pd.DataFrame:  # fmt: skip
-    columns: dict[str, Any] = {"dataset": dataset, "time_s": time_s, "segment": segment + 1}
-    for axis, letter in enumerate("xyz"):
-        columns[f"{letter}_{unit}"] = path[:, axis] if axis < path.shape[1] else np.nan
-    columns[f"speed_{unit}_per_s"] = v
-    columns[f"curvature_per_{unit}"] = k
-    columns[f"predicted_speed_{unit}_per_s"] = predicted
-    return pd.DataFrame(columns)
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Samples of a path (F, L), their times and segments, speed, curvature and speed by the law."""
+
+    dataset: str
+    path: Floats
+    time_s: Floats
+    segment: NDArray[np.int64]
+    speed: Floats
+    curvature: Floats
+    predicted_speed: Floats
+
+
+def _points(of: Samples, axes: str, unit: str) -> pd.DataFrame:
+    there = dict(zip(axes, of.path.T, strict=True))
+    return pd.DataFrame(
+        {
+            "dataset": of.dataset,
+            "time_s": of.time_s,
+            "segment": of.segment + 1,
+            **{f"{axis}_{unit}": there.get(axis, np.nan) for axis in AXES},
+            f"speed_{unit}_per_s": of.speed,
+            f"curvature_per_{unit}": of.curvature,
+            f"predicted_speed_{unit}_per_s": of.predicted_speed,
+        }
+    )
 
 
 # --- files -----------------------------------------------------------------------------------

@@ -30,6 +30,25 @@ RATES_PER_S = np.concatenate([np.linspace(0, 2, 9), np.linspace(2.5, 12, 12)])
 TESTED_ORDER = 3  # section 3.2: order 3 against the rest
 
 
+def summaries(
+    corpus: str, gathered: Mapping[str, pd.DataFrame], trajectories: Sequence[Trajectory],
+    settings: Mapping[str, Any], seed: int,
+) -> dict[str, pd.DataFrame]:  # fmt: skip
+    """Return the tables order_posteriors, hit_rates, chance_lines and order_tests of a corpus.
+
+    gathered: its tables binning and fitted_truths, of all shards.
+    """
+    binning = gathered["binning"]
+    truths = known_boundaries(trajectories, gathered["fitted_truths"])
+    rates, lines = hit_rates(corpus, binning, truths, settings, seed)
+    return {
+        "order_posteriors": order_posteriors(corpus, binning),
+        "hit_rates": rates,
+        "chance_lines": lines,
+        "order_tests": order_tests(corpus, binning),
+    }
+
+
 def groups(binning: pd.DataFrame) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
     """Yield each group's key and rows: whole datasets, then signers and signs."""
     for (dataset, true_order), rows in binning.groupby(["dataset", "true_order"], dropna=False):

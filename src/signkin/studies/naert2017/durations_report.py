@@ -12,8 +12,6 @@ from signkin.report.page import FigureView, TableView
 from signkin.tables import read_table
 
 SIMULATED = " Simulated: the durations carry the printed Table 2; it is a test of the method only."
-PAIRWISE = ("Tukey HSD", "Games-Howell")
-CHECKS = ("Levene", "Shapiro-Wilk")
 
 
 def duration_views(
@@ -56,10 +54,46 @@ def duration_views(
 # --- statistics ------------------------------------------------------------------------------
 
 
+STATISTICS_COLUMNS = {
+    "question": ("question", ""),
+    "outliers": ("outliers", ""),
+    "test": ("test", ""),
+    "comparison": ("of", ""),
+    "tested": ("statistic", ""),
+    "p": ("p", ".2g"),
+    "sized": ("effect [interval]", ""),
+    "n": ("n", "d"),
+    "powered": ("power", ""),
+    "statistic": ("difference (s)", ".3f"),
+    "effect": ("value", ".3f"),
+    "effect_low": ("low", ".3f"),
+    "effect_high": ("high", ".3f"),
+    "note": ("note", ""),
+}
+
+
+def _columns(*names: str) -> dict[str, tuple[str, str]]:
+    return {name: STATISTICS_COLUMNS[name] for name in names}
+
+
 def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator[TableView]:
     frame = read_table(path, "statistics")
-    words = frame[frame["test"] == "in words"]
-    yield TableView(
+    yield _words(path, frame[frame["kind"] == "words"], chosen, warning)
+    rest = frame[frame["kind"] != "words"]
+    rest = rest.assign(
+        tested=[_statistic(row) for row in rest.itertuples()],
+        sized=[_effect(row) for row in rest.itertuples()],
+        powered=[_power(row) for row in rest.itertuples()],
+    )
+    pairs = rest["kind"] == "pair"
+    distance = rest["question"] == "distance"
+    yield _tests(path, rest[~pairs & ~distance], chosen, warning)
+    yield _pairs(path, rest[pairs], chosen, warning)
+    yield _distance(path, rest[distance], chosen, warning)
+
+
+def _words(path: Path, words: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+    return TableView(
         label="",
         title="Do durations differ by type, and with distance? In words",
         caption="Section 5.1 says that hands and symmetry 'do not significantly impact' the "
@@ -78,76 +112,61 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
         },
         file=path,
     )
-    rest = frame[frame["test"] != "in words"]
-    pairs = rest["test"].isin(PAIRWISE)
-    distance = rest["question"] == "distance"
-    rest = rest.assign(
-        tested=[_statistic(row) for row in rest.itertuples()],
-        sized=[_effect(row) for row in rest.itertuples()],
-        powered=[_power(row) for row in rest.itertuples()],
-    )
-    columns = {
-        "question": ("question", ""),
-        "outliers": ("outliers", ""),
-        "test": ("test", ""),
-        "comparison": ("of", ""),
-        "tested": ("statistic", ""),
-        "p": ("p", ".2g"),
-        "sized": ("effect [interval]", ""),
-        "n": ("n", "d"),
-        "powered": ("power", ""),
-        "statistic": ("difference (s)", ".3f"),
-        "effect": ("value", ".3f"),
-        "effect_low": ("low", ".3f"),
-        "effect_high": ("high", ".3f"),
-        "note": ("note", ""),
-    }
-    tests = [n for n in columns if n not in ("statistic", "effect", "effect_low", "effect_high")]
-    level = f"{1 - chosen['alpha']:.0%}"
-    yield TableView(
+
+
+def _level(chosen: Mapping[str, Any]) -> str:
+    return f"{1 - chosen['alpha']:.0%}"
+
+
+def _tests(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+    return TableView(
         label="",
         title="Tests of duration by sign type",
-        caption=f"Durations in s; intervals {level} (TOST: {1 - 2 * chosen['alpha']:.0%}). Eta and "
-        "omega squared estimate the same share of variance and have its interval. Power: to find "
-        f"Cohen's f = {chosen['effect_f']:g} with this n (TOST: to show equivalence of equal "
-        "means). A dash is a number that the test does not have, or that the note says is "
+        caption=f"Durations in s; intervals {_level(chosen)} (TOST: {1 - 2 * chosen['alpha']:.0%})"
+        ". Eta and omega squared estimate the same share of variance and have its interval. Power: "
+        f"to find Cohen's f = {chosen['effect_f']:g} with this n (TOST: to show equivalence of "
+        "equal means). A dash is a number that the test does not have, or that the note says is "
         f"missing.{warning}",
-        frame=rest[~pairs & ~distance],
-        columns={name: columns[name] for name in tests},
+        frame=rows,
+        columns=_columns(
+            "question", "outliers", "test", "comparison", "tested", "p", "sized", "n", "powered",
+            "note",
+        ),
         file=path,
         most=12,
-    )
-    small = rest[pairs].sort_values(["test", "p"], kind="stable")
-    yield TableView(
+    )  # fmt: skip
+
+
+def _pairs(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+    small = rows.sort_values(["test", "p"], kind="stable")
+    return TableView(
         label="",
         title="Pairs of types",
         caption=f"Tukey's HSD and Games-Howell, p adjusted for all pairs of a test; "
         f"{int((small['p'] < chosen['alpha']).sum())} of {int(small['p'].notna().sum())} rows "
         f"below {chosen['alpha']:g}. Smallest p first; difference of the means in s, Cohen's d "
-        f"with its {level} interval.{warning}",
+        f"with its {_level(chosen)} interval.{warning}",
         frame=small,
-        columns={
-            name: columns[name]
-            for name in ("outliers", "test", "comparison", "statistic", "p", "sized", "n", "note")
-        },
+        columns=_columns("outliers", "test", "comparison", "statistic", "p", "sized", "n", "note"),
         file=path,
         most=6,
-    )  # fmt: skip
-    yield TableView(
+    )
+
+
+def _distance(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+    return TableView(
         label="",
         title="Duration and distance",
-        caption=f"Pearson's and Spearman's correlation with {level} bootstrap intervals "
+        caption=f"Pearson's and Spearman's correlation with {_level(chosen)} bootstrap intervals "
         f"({chosen['draws']} draws); the isochrony exponent b of duration = a · distance^b; the "
         f"share of transitions in the diamond of Fig. 8.{warning}",
-        frame=rest[distance],
-        columns={
-            name: columns[name]
-            for name in ("test", "comparison", "effect", "effect_low", "effect_high", "p", "n",
-                         "note")
-        },
+        frame=rows,
+        columns=_columns(
+            "test", "comparison", "effect", "effect_low", "effect_high", "p", "n", "note"
+        ),
         file=path,
         most=12,
-    )  # fmt: skip
+    )
 
 
 def _statistic(row: Any) -> str:

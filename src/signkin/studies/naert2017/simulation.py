@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from signkin import seeds, tables
-from signkin.coarticulation.duration import TERMS, SurfaceDuration
+from signkin.coarticulation.duration import TERMS, SurfaceDuration, Transitions
 from signkin.coarticulation.segmentation import truth_errors, truth_summary
 
 
@@ -65,5 +65,7 @@ def _fit(rows: pd.DataFrame, euclidean_unit_m: float) -> SurfaceDuration:
         return rows[name].to_numpy(dtype=float)
 
     return SurfaceDuration().fit(
-        column("geodesic_rad"), column("euclidean_m") / euclidean_unit_m, column("duration_s")
+        Transitions(
+            column("geodesic_rad"), column("euclidean_m") / euclidean_unit_m, column("duration_s")
+        )
     )

@@ -1,16 +1,101 @@
-"""What the audit's page tells of both papers' cuts on the same wrists."""
+"""What the report and the audit's page tell of both papers' cuts on the same wrists."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
 
-from signkin.report.page import Section, TableView
+from signkin.corpus import Corpus
+from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.studies.endres2013.report import P3, SIMULATED, badge, left_out
 from signkin.tables import read_table
 
 KINDS = {"boundaries": "boundaries by binning", "minima": "speed minima"}
+
+
+# --- the report -------------------------------------------------------------------------------
+
+
+def sections(results: Path, corpora: Mapping[str, Corpus]) -> Iterator[Section]:
+    """Yield a section for each corpus of continuous recordings."""
+    for name, corpus in corpora.items():
+        if not corpus.single_signs:
+            yield _continuous(results / "endres2013" / name, name, corpus)
+
+
+def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
+    path = folder / "one_wrist.csv"
+    compared = TableView(
+        label="",
+        title="Boundaries, minima and tags of one hand",
+        caption="Hit rates within the window, one to one, mean over recordings; chance: as many "
+        "Poisson events over the whole recording, 95 % of the sets.",
+        frame=read_table(path, "one_wrist"),
+        columns={
+            "hand": ("hand", ""),
+            "found": ("found", ""),
+            "truth": ("held against", ""),
+            "hit_rate": ("hit rate", P3),
+            "chance_hit_rate": ("chance", P3),
+            "chance_low": ("2.5 %", P3),
+            "chance_high": ("97.5 %", P3),
+            "false_positives_per_s": ("no hit, a second", P3),
+            "n_found": ("found", "d"),
+            "n_truth": ("of", "d"),
+            "recordings": ("recordings", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+    )
+    figure = FigureView(
+        label="",
+        title="Two papers, one wrist",
+        caption=(folder / "one_wrist.txt").read_text(encoding="utf-8").strip()
+        + (SIMULATED if corpus.simulator else ""),
+        svg=folder / "fig_one_wrist.svg",
+        files=figure_files(folder / "fig_one_wrist"),
+    )
+    views: list[TableView | FigureView] = [figure, compared, _wrists(folder)]
+    views += left_out(folder / "wrists_left_out.csv")
+    text: Sequence[str] = [
+        "The wrists of continuous recordings, binned as long series: do the segments of one paper "
+        "start and end where the other puts its minima and tags?"
+    ]
+    return Section(
+        anchor=f"{name}-one-wrist",
+        title=f"{name}: two papers, one wrist",
+        text=text,
+        badge=badge(corpus),
+        exhibits=views,
+    )
+
+
+def _wrists(folder: Path) -> TableView:
+    path = folder / "wrist_posteriors.csv"
+    return TableView(
+        label="",
+        title="Wrists as long series",
+        caption="Cut mass bounds the share of P(M | data) outside of the counts worked out.",
+        frame=read_table(path, "wrist_posteriors"),
+        columns={
+            "recording": ("recording", ""),
+            "hand": ("hand", ""),
+            "n_bins": ("bins", "d"),
+            "bin_s": ("bin (s)", ".4f"),
+            "order": ("order", "d"),
+            "map_count": ("boundaries", "d"),
+            "boundaries_per_s": ("a second", ".2f"),
+            "explained_variance": ("explained variance", ".4f"),
+            "cut_mass": ("cut mass", ".1g"),
+        },
+        file=path,
+        most=8,
+    )
+
+
+# --- the audit's page -------------------------------------------------------------------------
 
 
 def two_papers(files: Mapping[str, Path], simulated: Mapping[str, bool]) -> Section | None:

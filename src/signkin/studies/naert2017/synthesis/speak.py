@@ -7,15 +7,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from signkin.errors import SignkinError, listed
+from signkin.settings.legacy import legacy
 from signkin.stages.plan import Plan, make_plan
 from signkin.studies.naert2017.synthesis.utterance import (
     load_database,
     printed_theta,
     utterance_files,
 )
+from signkin.yaml_file import read_yaml
 
 RESULTS = Path("results")
 LONGEST_NAME = 60
@@ -83,12 +83,10 @@ def speak(
 
 
 def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> tuple[Plan, dict[str, Any]]:
-    """Return the plan and the configuration of the folder the command is called in."""
+    """Return the plan and the settings of the folder the command is called in."""
     path = Path("config.yaml")
-    if not path.is_file():
-        path = root / "config.yaml"
-    config: dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
-    config["synthesis"] = {**config["synthesis"], **changes}
+    config = read_yaml(path if path.is_file() else root / "config.yaml")
+    config["synthesis"] = {**(config.get("synthesis") or {}), **changes}
     plan = make_plan(config, root)
     if corpus not in plan.corpora:
         why = plan.missing.get(corpus)
@@ -97,4 +95,4 @@ def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> tuple[Plan, di
             place="CORPUS",
             expected=listed(sorted(plan.corpora)),
         )
-    return plan, config
+    return plan, legacy(plan.settings)

@@ -78,7 +78,7 @@ def test_reasons_are_counted_whatever_their_numbers(tmp_path):
         ("powerlaw", "recording r2: 0.25 s, too short"),
     ]
     tables.write_table(left_out(reasons), path, "binning_left_out")
-    (view,) = endres_report._left_out(path)
+    (view,) = endres_report.left_out(path)
     assert view.frame[["dataset", "n", "example"]].to_numpy().tolist() == [
         ["powerlaw", 1, "r2"], ["recorded", 2, "r0"],
     ]  # fmt: skip
@@ -89,7 +89,7 @@ def test_reasons_are_counted_whatever_their_numbers(tmp_path):
 @pytest.mark.parametrize(
     ("name", "file", "make"),
     [
-        ("binning_left_out", "left_out.csv", lambda f: endres_report._left_out(f / "left_out.csv")),
+        ("binning_left_out", "left_out.csv", lambda f: endres_report.left_out(f / "left_out.csv")),
         ("rejected_draws", "rejected_draws.csv", endres_report._rejected),
     ],
 )

@@ -1,5 +1,7 @@
 """Figures of Endres et al. 2013: what is drawn is what the points say, without warnings."""
 
+from dataclasses import replace
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -7,10 +9,13 @@ import pytest
 
 from signkin import tables
 from signkin.errors import SignkinError
+from signkin.exhibits import exhibits, of_groups
 from signkin.figures import binning as drawing
 from signkin.figures.style import paper_style
-from signkin.studies.endres2013 import figures as endres_figures
-from signkin.studies.endres2013 import summaries as endres2013
+from signkin.studies.endres2013.figures import DRAWINGS, draw, fig02
+from signkin.studies.endres2013.figures.fig03 import KINDS
+from signkin.studies.endres2013.figures.points import told_orders
+from signkin.studies.endres2013.figures.sources import Example, Sources, read_sources
 from signkin.studies.endres2013.posteriors import (
     FITTED,
     FITTED_MAP,
@@ -24,7 +29,10 @@ from signkin.studies.endres2013.single_signs import (
     example_points,
     single_signs,
 )
+from signkin.studies.endres2013.summaries import summaries
 from support.endres import arc, corpus_of, recording_of, settings
+
+CHANCE = ("chance", "chance low", "chance high", "closed form")
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -43,38 +51,25 @@ def made(tmp_path_factory):
     found = study(corpus, cut.trajectories, own["binning"], 2)
     path = tmp_path_factory.mktemp("posteriors") / "p.parquet"
     write_posteriors(path, found.fits)
-    rows = found.table("binning")
-    truths = endres2013.known_boundaries(cut.trajectories, found.table("fitted_truths"))
-    rates, lines = endres2013.hit_rates("tiny", rows, truths, own["binning"], 3)
-    return {
-        "x": {t.dataset: t.x for t in cut.trajectories if t.recording == "a"},
-        "points": example_points(corpus, recordings[0], own, 3),
-        "segments": cut.table("ground_truth", "m").query("recording == 'a'"),
-        "fits": read_posteriors([path], "a"),
-        "orders": endres2013.order_posteriors("tiny", rows),
-        "rates": rates,
-        "lines": lines,
-        "tests": endres2013.order_tests("tiny", rows),
-    }
+    gathered = {name: found.table(name) for name in ("binning", "fitted_truths")}
+    frames = summaries("tiny", gathered, cut.trajectories, own["binning"], 3)
+    x = {t.dataset: t.x for t in cut.trajectories if t.recording == "a"}
+    example = Example(
+        "a", "xyz", example_points(corpus, recordings[0], own, 3),
+        cut.table("ground_truth", "m").query("recording == 'a'"), read_posteriors([path], "a"),
+        x[RECORDED], x[POWERLAW],
+    )  # fmt: skip
+    return Sources(
+        "tiny", "m", frames["order_posteriors"], frames["hit_rates"], frames["chance_lines"],
+        frames["order_tests"], example,
+    )  # fmt: skip
 
 
 @pytest.fixture
 def drawn(made):
     """Return a maker of one figure, drawn on a canvas and closed afterwards."""
-    m = made
-    ways = {
-        "fig01": lambda: endres_figures.fig01(m["points"], m["segments"], "m"),
-        "fig03": lambda: endres_figures.fig03(
-            "tiny", m["fits"], m["x"][RECORDED], m["orders"], m["rates"], m["lines"], "m"
-        ),
-        "fig04": lambda: endres_figures.fig04("tiny", m["fits"], m["x"][POWERLAW], "m"),
-        "fig05": lambda: endres_figures.fig05("tiny", m["rates"], m["lines"]),
-        "fig06": lambda: endres_figures.fig06("tiny", m["orders"], m["rates"], m["tests"]),
-        "fig07": lambda: endres_figures.fig07("tiny", m["orders"]),
-        "figA1": lambda: endres_figures.fig_a1("tiny", m["orders"], m["rates"], m["lines"]),
-    }
     with paper_style():
-        yield lambda name: _rendered(ways[name]())
+        yield lambda name, **changes: _rendered(DRAWINGS[name](replace(made, **changes)))
     plt.close("all")
 
 
@@ -92,7 +87,7 @@ def has_data(ax):
     return bool(ax.lines or ax.collections or ax.patches or ax.containers)
 
 
-@pytest.mark.parametrize("name", endres_figures.FIGURES)
+@pytest.mark.parametrize("name", DRAWINGS)
 def test_every_panel_has_data_and_labels(drawn, name):
     one = drawn(name)
     for ax in panels(one.figure):
@@ -173,18 +168,18 @@ def test_figure_3_is_what_its_rows_say(drawn, made):
     curve_rows = data["A"][data["A"]["series"] != "boundaries"]
     for _, rows in curve_rows.groupby("series"):
         assert as_curve(rows) in curves(a)
-    x = made["x"][RECORDED]
+    x = made.example.recorded
     first = data["A"].query("series == 'x'")["y"].to_numpy()
     assert first == pytest.approx(x[:, 0] - x[:, 0].mean())
     dotted = sorted(line.get_xdata()[0] for line in a.lines if line.get_linestyle() == ":")
     assert dotted == pytest.approx(data["A"].query("series == 'boundaries'")["x"].tolist())
     assert bars(b) == pytest.approx(sorted(data["B"]["y"]), abs=1e-8)
-    shown = data["C"][~data["C"]["series"].str.startswith(("chance", "closed"))]
+    shown = data["C"][~data["C"]["series"].isin(CHANCE)]
     assert marks(c) == points_of(shown)
     for series in ("chance", "closed form"):
         assert as_curve(data["C"][data["C"]["series"] == series]) in curves(c)
     assert marks(d) == points_of(data["D"])
-    orders = made["orders"]
+    orders = made.orders
     recorded = orders[(orders["dataset"] == RECORDED) & (orders["signer"] == "all")]
     assert data["D"]["y"].to_numpy() == pytest.approx(recorded["mean_explained_variance"])
 
@@ -194,7 +189,7 @@ def test_figure_4_draws_densities_that_sum_to_the_expected_count(drawn, made):
     top, *lower = panels(one.figure)
     assert top.get_ylabel().endswith("centred (m)")
     assert lower[-1].get_xlabel() == "time (s)"
-    fits = made["fits"].query("dataset == 'powerlaw'").set_index("order")
+    fits = made.example.fits.query("dataset == 'powerlaw'").set_index("order")
     assert [ax.get_title(loc="left").split(":")[0] for ax in lower] == ["order 0", "order 3"]
     for ax, order in zip(lower, (0, 3), strict=True):
         assert ax.get_ylabel() == "boundaries (1/s)"
@@ -206,7 +201,7 @@ def test_figure_4_draws_densities_that_sum_to_the_expected_count(drawn, made):
             fit["boundary_probability"].sum(), rel=1e-5
         )
         true = sorted(line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":")
-        assert true == pytest.approx(made["segments"]["end_s"].iloc[:2].tolist())
+        assert true == pytest.approx(made.example.segments["end_s"].iloc[:2].tolist())
     for order in (0, 3):
         rows = one.data[one.data["panel"] == "trajectory"]
         rows = rows[rows["series"] == f"order {order}"]
@@ -228,7 +223,7 @@ def test_figures_5_to_7_draw_each_group(drawn, made):
     )
     assert bottom.get_ylabel() == "hit rate / false positives a second (s)"
     ratio = six.data.query("panel == 'ratio' and series == 'all'")
-    rates = made["rates"]
+    rates = made.rates
     own = rates[(rates["dataset"] == POWERLAW) & (rates["signer"] == "all")]
     pd.testing.assert_series_equal(
         ratio["y"].reset_index(drop=True), own["hpfpps"].reset_index(drop=True), check_names=False
@@ -253,28 +248,73 @@ def test_figure_a1_has_a_pair_of_panels_for_each_true_order(drawn):
     for order, top, bottom in zip((1, 3), titled, others, strict=True):
         rows = one.data[one.data["panel"] == f"P, order {order}"]
         assert bars(top) == pytest.approx(sorted(rows["y"]), abs=1e-8)
-        assert set(rows["series"]) == set(endres_figures.KINDS.values())
+        assert set(rows["series"]) == set(KINDS.values())
         hits = one.data[one.data["panel"] == f"hits, order {order}"]
-        shown = hits[~hits["series"].str.startswith(("chance", "closed"))]
+        shown = hits[~hits["series"].isin(CHANCE)]
         assert marks(bottom) == points_of(shown)
         assert order in {line.get_xdata()[0] for line in top.lines}
-    assert {FITTED, FITTED_MAP} == set(endres_figures.KINDS)
+    assert {FITTED, FITTED_MAP} == set(KINDS)
 
 
-def test_the_scheme_has_its_boundaries(drawn):
-    figure, rows = endres_figures.fig02()
-    figure.canvas.draw()
-    (ax,) = figure.axes
+def test_the_scheme_has_its_boundaries():
+    one = _rendered(fig02.drawn())
+    (ax,) = one.figure.axes
     assert ax.get_xlabel().startswith("time: T = 15 bins") and "M = 2" in ax.get_xlabel()
     dotted = {line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"}
-    assert dotted == {0, *rows["x"]}
-    assert list(rows.columns) == tables.TABLES["endres_figure"].names()
+    assert dotted == {0, *one.data["x"]}
+    assert list(one.data.columns) == tables.TABLES["endres_figure"].names()
+    plt.close(one.figure)
+
+
+@pytest.mark.parametrize("signer", ["clara", "chance", "chancellor", "closed form"])
+def test_marks_of_signers_called_like_a_line_are_drawn(drawn, made, signer):
+    renamed = [table.replace({"signer": {"s1": signer}}) for table in (made.rates, made.lines)]
+    one = drawn("fig05", rates=renamed[0], lines=renamed[1])
+    titles = {ax.get_title(loc="left"): ax for ax in panels(one.figure)}
+    ax = titles[f"signer {signer}, sign wave (n = 2)"]
+    rows = one.data[one.data["series"] == f"{signer}, wave"]
+    assert len(rows) == 4 and marks(ax) == points_of(rows)
+
+
+def test_axes_are_named_as_recorded(drawn, made):
+    example = made.example
+    expected = [np.reshape(e, (-1, 3))[:, :2].ravel() for e in example.fits["expected"]]
+    fits = example.fits.assign(expected=expected)
+    flat = replace(example, axes="xz", recorded=example.recorded[:, :2], fits=fits)
+    three = drawn("fig03", example=flat)
+    assert {"x", "z", "z, order 3"} <= set(three.data["series"])
+    assert not {"y", "y, order 3"} & set(three.data["series"])
+
+
+@pytest.mark.parametrize("name", ["fig05", "figA1"])
+def test_captions_tell_the_orders_that_were_run(drawn, made, name):
+    assert "orders 0 to 3" in drawn(name).caption
+    rates, orders = (table[table["order"] != 1] for table in (made.rates, made.orders))
+    assert "orders 0, 2 and 3" in drawn(name, rates=rates, orders=orders).caption
+
+
+def test_orders_are_told_in_words():
+    assert told_orders([3, 1, 2, 1]) == "orders 1 to 3"
+    assert told_orders([0, 1]) == "orders 0 and 1"
+    assert told_orders([6, 0, 3]) == "orders 0, 3 and 6"
+    assert told_orders([2]) == "order 2"
+
+
+def test_the_list_is_what_is_drawn(root, made):
+    listing = of_groups(exhibits(root / "papers" / "endres2013"), "figures")
+    assert [exhibit.stem for exhibit in listing] == list(DRAWINGS)
+    with paper_style():
+        assert list(draw(made, listing[4:5])) == ["fig06"]
+    more = [*listing, replace(listing[0], stem="fig99")]
+    with pytest.raises(SignkinError, match=r"fig99 in the list, but not drawn"):
+        draw(made, more)
+    plt.close("all")
 
 
 def test_without_ground_truth_there_is_a_sentence():
     frames = {"ground_truth": tables.empty("ground_truth", "m")}
     with pytest.raises(SignkinError, match=r"tiny: no recording has a power-law ground truth"):
-        endres_figures.draw(corpus_of(["a"]), frames, [], [], [], settings(), 3)
+        read_sources(corpus_of(["a"]), frames, {}, settings(), 3)
 
 
 def test_marks_on_one_spot_share_a_label():

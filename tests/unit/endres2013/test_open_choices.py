@@ -6,7 +6,9 @@ import pytest
 from signkin import tables
 from signkin.errors import SignkinError
 from signkin.figures.style import paper_style
-from signkin.studies.endres2013.open_choices import OUTCOMES, caption, draw, sensitivity
+from signkin.studies.endres2013.figures.open_choices import OUTCOMES
+from signkin.studies.endres2013.figures.open_choices import drawn as figure_of
+from signkin.studies.endres2013.open_choices import sensitivity
 from signkin.studies.endres2013.posteriors import study
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, single_signs
 from support.endres import arc, corpus_of, recording_of, settings
@@ -113,7 +115,8 @@ def test_the_figure_has_a_mark_for_each_setting(found):
     table = pd.concat([table, table.assign(noise="data plain", printed="yes", default="no")])
     table = table.reset_index(drop=True)
     with paper_style():
-        figure = draw(table)
+        one = figure_of(table)
+        figure = one.figure
         figure.canvas.draw()
     assert len(figure.axes) == len(OUTCOMES)
     for ax, (column, (label, paper)) in zip(figure.axes, OUTCOMES.items(), strict=True):
@@ -133,5 +136,5 @@ def test_the_figure_has_a_mark_for_each_setting(found):
         assert ax.get_ylabel() == label
     names = [t.get_text() for t in figure.axes[-1].get_xticklabels()]
     assert names == ["sensor\nexpected\nbin", "data\nplain\nbin"]
-    told = caption(table)
+    told = one.caption
     assert "4 settings" in told and "The 2 ringed" in told and "nan" not in told

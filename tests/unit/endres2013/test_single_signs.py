@@ -1,6 +1,7 @@
 """Recordings of single signs into bins, and what is left out."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,51 +13,22 @@ from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
     example_points,
-    in_bins,
+    movement_of,
     read_trajectories,
     recorded,
     single_signs,
-    wrist_of,
     write_trajectories,
 )
 from support.endres import arc, corpus_of, recording_of, settings
 
 
-@pytest.mark.parametrize("degree", range(6))
-@pytest.mark.parametrize(("frames", "bins"), [(40, 17), (40, 39), (12, 5)])
-def test_polynomials_up_to_the_splines_degree_are_exact(degree, frames, bins):
-    rate = 30.0
-    rng = np.random.default_rng(degree)
-    curve = [np.polynomial.Polynomial(rng.normal(size=degree + 1)) for _ in range(3)]
-    t = np.arange(frames) / rate
-    x, bin_s = in_bins(np.column_stack([p(t) for p in curve]), rate, bins)
-    duration = (frames - 1) / rate
-    assert bin_s * bins == pytest.approx(duration)
-    middle = (np.arange(bins) + 0.5) * duration / bins
-    assert x == pytest.approx(np.column_stack([p(middle) for p in curve]), abs=1e-9)
-
-
-def test_few_samples_take_a_spline_of_lower_degree():
-    t = np.arange(3) / 10
-    x, _ = in_bins(np.column_stack([t**2, 1 - t]), 10.0, 2)
-    assert x == pytest.approx(np.array([[0.05**2, 0.95], [0.15**2, 0.85]]))
-
-
-def test_as_many_bins_as_samples_are_the_samples():
-    path = np.random.default_rng(1).normal(size=(20, 3))
-    x, bin_s = in_bins(path, 50.0, 20)
-    assert (x == path).all()
-    assert x is not path
-    assert bin_s == 1 / 50
-
-
 def test_the_hand_that_moves_more_is_taken():
     small = 0.5 * arc()
-    assert wrist_of(recording_of("a", arc(), small), settings()).hand == "right"
-    left = wrist_of(recording_of("a", small, arc()), settings())
-    assert left.hand == "left"
-    assert left.path == pytest.approx(lowpass(arc(), 100.0, 6.0, method="fir"))
-    moving = np.linalg.norm(np.gradient(left.path, 0.01, axis=0), axis=1)
+    assert movement_of(recording_of("a", arc(), small), settings()).wrist.hand == "right"
+    left = movement_of(recording_of("a", small, arc()), settings())
+    assert left.wrist.hand == "left"
+    assert left.wrist.path == pytest.approx(lowpass(arc(), 100.0, 6.0, method="fir"))
+    moving = np.linalg.norm(np.gradient(left.wrist.path, 0.01, axis=0), axis=1)
     # Endres et al. 2.4: the ends below 15 % of the top speed are left out.
     inside = moving > 0.15 * moving.max()
     assert left.active.start == pytest.approx(np.argmax(inside), abs=1)
@@ -66,8 +38,8 @@ def test_the_hand_that_moves_more_is_taken():
 def test_a_short_gap_is_filled():
     path = arc()
     path[80:90] = np.nan  # 0.1 s
-    filled = wrist_of(recording_of("a", path), settings()).path
-    whole = wrist_of(recording_of("a", arc()), settings()).path
+    filled = movement_of(recording_of("a", path), settings()).wrist.path
+    whole = movement_of(recording_of("a", arc()), settings()).wrist.path
     assert np.abs(filled - whole).max() < 0.02 * np.ptp(whole, axis=0).max()
 
 
@@ -93,14 +65,13 @@ REASONS = {
 @pytest.mark.parametrize("kind", REASONS)
 def test_what_cannot_be_cut_says_why_and_names_the_recording(kind):
     with pytest.raises(SignkinError, match=REASONS[kind]):
-        wrist_of(spoiled(kind), settings())
+        movement_of(spoiled(kind), settings())
 
 
 def test_a_movement_of_one_sample_is_refused():
-    wrist = wrist_of(recording_of("a", arc()), settings())
-    object.__setattr__(wrist, "active", slice(80, 81))
+    movement = movement_of(recording_of("a", arc()), settings())
     with pytest.raises(SignkinError, match=r"recording a: the movement has 1 samples"):
-        recorded(wrist, 100)
+        recorded(replace(movement, active=slice(80, 81)), 100)
 
 
 def test_every_recording_is_cut_or_listed():
@@ -176,14 +147,36 @@ def test_flat_recordings_have_two_dimensions():
     assert points["z_px"].isna().all() and points["x_px"].notna().all()
 
 
+def test_an_axis_that_never_moves_is_no_data_and_the_others_keep_their_names():
+    path = arc(seconds=2.0)
+    path[:, 1] = 0.4  # a depth that the tracker never gave
+    recording, corpus = recording_of("a", path), corpus_of(["a"])
+    out = single_signs(corpus, [recording], settings(), 3)
+    assert [t.x.shape[1] for t in out.trajectories] == [2, 2]
+    points = example_points(corpus, recording, settings(), 3)
+    assert points["y_m"].isna().all()
+    before = points[points["dataset"] == RECORDED]
+    movement = movement_of(recording, settings())
+    assert before[["x_m", "z_m"]].to_numpy() == pytest.approx(movement.path)
+
+
+def test_a_movement_along_one_axis_has_bins_but_no_ground_truth():
+    path = arc()
+    path[:, 1:] = 0
+    out = single_signs(corpus_of(["a"]), [recording_of("a", path)], settings(), 3)
+    assert [(t.dataset, t.x.shape[1]) for t in out.trajectories] == [(RECORDED, 1)]
+    (row,) = out.left_out
+    assert row["dataset"] == POWERLAW and "(160, 1)" in row["reason"]
+
+
 def test_points_of_the_first_figure_are_path_and_warped_path():
     recording = recording_of("a", arc())
     corpus = corpus_of(["a"])
     points = example_points(corpus, recording, settings(), 3)
     assert list(points.columns) == tables.TABLES["fig01_powerlaw"].names("m")
-    wrist = wrist_of(recording, settings())
+    movement = movement_of(recording, settings())
     before = points[points["dataset"] == RECORDED]
-    assert before[["x_m", "y_m", "z_m"]].to_numpy() == pytest.approx(wrist.path[wrist.active])
+    assert before[["x_m", "y_m", "z_m"]].to_numpy() == pytest.approx(movement.path)
     assert set(before["segment"]) == {1, 2, 3}
     truth = single_signs(corpus, [recording], settings(), 3).table("ground_truth", "m")
     after = points[points["dataset"] == POWERLAW]

@@ -1,0 +1,96 @@
+"""What the figures of one corpus are drawn from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from signkin.corpus import Corpus
+from signkin.errors import SignkinError
+from signkin.io.store import read_recordings
+from signkin.studies.endres2013.posteriors import read_posteriors
+from signkin.studies.endres2013.single_signs import (
+    POWERLAW,
+    RECORDED,
+    example_points,
+    movement_of,
+    read_trajectories,
+)
+
+Floats = NDArray[np.float64]
+
+TABLES = ("ground_truth", "order_posteriors", "hit_rates", "chance_lines", "order_tests")
+
+
+@dataclass(frozen=True, eq=False)
+class Example:
+    """The recording of Fig. 1, 3A and 4.
+
+    axes: those of its path, L of x, y, z. points: table `fig01_powerlaw`. segments: its rows of
+    the table `ground_truth`. fits: its posteriors. recorded, powerlaw: (T, L) in bins.
+    """
+
+    recording: str
+    axes: str
+    points: pd.DataFrame
+    segments: pd.DataFrame
+    fits: pd.DataFrame
+    recorded: Floats
+    powerlaw: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Sources:
+    """The tables of a corpus of single signs, and the recording that is its example.
+
+    orders, rates, lines, tests: the tables `order_posteriors`, `hit_rates`, `chance_lines`,
+    `order_tests`. unit: of length, m or px.
+    """
+
+    corpus: str
+    unit: str
+    orders: pd.DataFrame
+    rates: pd.DataFrame
+    lines: pd.DataFrame
+    tests: pd.DataFrame
+    example: Example
+
+
+def read_sources(
+    corpus: Corpus, frames: Mapping[str, pd.DataFrame], shards: Mapping[str, Sequence[str]],
+    settings: Mapping[str, Any], seed: int,
+) -> Sources:  # fmt: skip
+    """Return what is drawn of a corpus.
+
+    frames: its tables, those of TABLES. shards: the files `recordings`, `trajectories` and
+    `posteriors` of all shards. The example is the first recording that has a ground truth.
+    """
+    truth = frames["ground_truth"]
+    if truth.empty:
+        raise SignkinError(
+            "no recording has a power-law ground truth",
+            file=corpus.folder,
+            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+        )
+    name = str(truth["recording"].iloc[0])
+    (recording,) = (r for path in shards["recordings"] for r in read_recordings(Path(path), [name]))
+    binned = {
+        t.dataset: t.x for t in read_trajectories(shards["trajectories"]) if t.recording == name
+    }
+    example = Example(
+        name,
+        movement_of(recording, settings).wrist.axes,
+        example_points(corpus, recording, settings, seed),
+        truth[truth["recording"] == name],
+        read_posteriors(shards["posteriors"], name),
+        binned[RECORDED],
+        binned[POWERLAW],
+    )
+    orders, rates, lines, tests = (frames[kind] for kind in TABLES[1:])
+    return Sources(corpus.name, corpus.unit, orders, rates, lines, tests, example)

@@ -1,0 +1,325 @@
+"""What the report shows of Naert et al. 2017 for each corpus."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from signkin.corpus import Corpus
+from signkin.errors import listed
+from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.settings import Settings
+from signkin.settings.legacy import legacy
+from signkin.studies.naert2017.durations_report import duration_views
+from signkin.studies.naert2017.synthesis import report as synthesis_report
+from signkin.tables import read_table
+
+S3 = ".3f"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Where the parts of these sections lie.
+
+    results: results/naert2017. paper: papers/naert2017. corpora: those of this run.
+    """
+
+    results: Path
+    paper: Path
+    corpora: Mapping[str, Corpus]
+    settings: Settings
+
+    @property
+    def constants(self) -> Mapping[str, str]:
+        """Numbers that the paper prints in its text, as strings."""
+        frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
+        return dict(zip(frame["name"], frame["value"], strict=True))
+
+    def file(self, corpus: str, name: str) -> Path:
+        """Return a file of a corpus."""
+        return self.results / corpus / name
+
+
+def sections(shown: Shown, labels: Mapping[str, Any]) -> Iterator[Section]:
+    """Yield a section a corpus with tags, or with takes of one sign; labels: exhibits by id."""
+    for name, corpus in shown.corpora.items():
+        if corpus.tagged:
+            yield section(shown, name, labels)
+        elif part := synthesis_report.section(name, corpus, shown.file(name, ""), labels):
+            yield part
+
+
+def section(shown: Shown, name: str, labels: Mapping[str, Any]) -> Section:
+    """Return the section of one corpus with tags."""
+    corpus = shown.corpora[name]
+    captions = json.loads(shown.file(name, "captions.json").read_text(encoding="utf-8"))
+    captions |= synthesis_report.captions(shown.file(name, ""))
+    views: list[TableView | FigureView] = []
+    for identity, exhibit in labels.items():
+        if identity == "table1":
+            views.append(_table1(shown, name, exhibit))
+        elif identity == "table2":
+            views.append(_table2(shown, name, exhibit))
+        elif identity in captions:
+            base = shown.file(name, identity)
+            views.append(
+                FigureView(
+                    label=exhibit["label"],
+                    title=exhibit["title"],
+                    caption=captions[identity],
+                    svg=base.with_suffix(".svg"),
+                    files=figure_files(base),
+                    differs=exhibit["differs"],
+                )
+            )
+        if identity == "fig06":
+            views += _refinement(shown, name)
+        if identity == "fig11":
+            views += duration_views(
+                shown.file(name, ""), legacy(shown.settings), shown.constants, exhibit,
+                corpus.simulator is not None,
+            )  # fmt: skip
+    views += _left_out(shown, name)
+    views.append(_sign_types(shown, name))
+    views += synthesis_report.views(shown.file(name, ""), corpus.unit)
+    if corpus.simulator:
+        views += _simulation(shown, name)
+    text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]
+    text.append(f"Licence: {corpus.settings['licence']}. Source: {corpus.settings['citation']}.")
+    return Section(
+        anchor=name,
+        title=name,
+        text=[line for line in text if line],
+        badge="simulated" if corpus.simulator else "real",
+        exhibits=views,
+        notices=_unused_glosses(shown, name),
+    )
+
+
+def _unused_glosses(shown: Shown, name: str) -> list[str]:
+    frame = read_table(shown.file(name, "lexicon.csv"), "lexicon")
+    unused = frame.loc[frame["occurrences"] == 0, "gloss"]
+    if unused.empty:
+        return []
+    return [
+        f"signs.csv has {len(unused)} glosses that occur in no recording: {listed(unused)}. "
+        "Misspelt, or not needed."
+    ]
+
+
+def _table1(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
+    path = shown.file(name, "table1.csv")
+    frame = read_table(path, "table1")
+    translated = int((frame["translation"] != "").sum())
+    told = f"{translated} with a translation" if translated else "the corpus has no translations"
+    columns = {
+        "recording": ("recording", ""),
+        "utterance": ("utterance", ""),
+        "start_s": ("start (s)", ".2f"),
+        "end_s": ("end (s)", ".2f"),
+        "signs": ("signs", "d"),
+        "glosses": ("glosses", ""),
+        "translation": ("translation", ""),
+    }
+    return TableView(
+        label=exhibit["label"],
+        title=exhibit["title"],
+        caption=f"{len(frame)} utterances, {int(frame['signs'].sum())} signs; {told}.",
+        frame=frame,
+        columns=columns,
+        file=path,
+        differs=exhibit["differs"],
+        most=8,
+    )
+
+
+def _table2(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
+    path = shown.file(name, "table2.csv")
+    frame = read_table(path, "table2")
+    simulated = shown.corpora[name].simulator is not None
+    rows = frame[frame["published_n"] != ""]
+    caption = (
+        f"Durations in s between manual tags, n = {int(frame['n'].iloc[-1])}, by four-digit type "
+        "(hands and symmetry of the sign before, then of the sign after); SD with divisor n - 1; "
+        "in brackets without outliers. Right: the paper's Table 2"
+    )
+    columns = {
+        "type": ("type", ""),
+        "printed_n": ("number", ""),
+        "printed_mean": ("mean (s)", ""),
+        "printed_sd": ("SD (s)", ""),
+        "published_n": ("paper: number", ""),
+        "published_mean": ("paper: mean (s)", ""),
+        "published_sd": ("paper: SD (s)", ""),
+    }
+    if simulated:
+        columns["equal"] = ("equal in every digit", "")
+        caption += f"; {int((rows['equal'] == 'yes').sum())} of {len(rows)} rows are equal."
+    else:
+        caption += ", another language and corpus: shown for comparison, not expected to agree."
+    single = frame[frame["note"].str.startswith("one value")]
+    if len(single):
+        caption += " A single value has no SD; it is printed as 0, as in the paper."
+    return TableView(
+        label=exhibit["label"],
+        title=exhibit["title"],
+        caption=caption,
+        frame=frame,
+        columns=columns,
+        file=path,
+        differs=exhibit["differs"],
+        emphasis="equal" if simulated else "",
+        most=40,
+    )
+
+
+def _refinement(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
+    path = shown.file(name, "refinement.csv")
+    settings = shown.settings.refinement
+    columns = {
+        "hand": ("hand", ""),
+        "measure": ("measure", ""),
+        "value": ("manual tags", S3),
+        "unit": ("unit", ""),
+        "chance": ("random tags", S3),
+        "chance_low": ("2.5 %", S3),
+        "chance_high": ("97.5 %", S3),
+        "n": ("n", "d"),
+        "note": ("note", ""),
+    }
+    yield TableView(
+        label="",
+        title="How the tags lie to the speed minima",
+        caption=f"Window {settings.search_window_s:g} s. Chance: {settings.draws} sets of as many "
+        "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
+        "the sets.",
+        frame=read_table(path, "refinement"),
+        columns=columns,
+        file=path,
+    )
+    base = shown.file(name, "fig_refinement")
+    yield FigureView(
+        label="",
+        title="Tags and speed minima against chance",
+        caption="Share of manual tags (coloured) with a speed minimum of the hand at most so far "
+        "away, against random tags (grey band: 95 % of the sets). Where the coloured line runs in "
+        "the band, tags are no nearer to minima than chance has it; below the band, farther.",
+        svg=base.with_suffix(".svg"),
+        files=figure_files(base, ".svg", ".pdf"),
+    )
+
+
+def _left_out(shown: Shown, name: str) -> Iterator[TableView]:
+    path = shown.file(name, "transitions_left_out.csv")
+    frame = read_table(path, "transitions")
+    if frame.empty:
+        return
+    counts = frame["status"].value_counts()
+    told = [
+        f"{counts.get('zero_length', 0)} of zero length (one sign ends where the next starts; "
+        "counted in all tables)",
+        f"{counts.get('overlap', 0)} overlapping (the next sign starts before the last one ends; "
+        "in no statistic, negative durations)",
+    ]
+    yield TableView(
+        label="",
+        title="Transitions of zero length, and overlapping signs",
+        caption="; ".join(told) + ".",
+        frame=frame,
+        columns={
+            "recording": ("recording", ""),
+            "transition": ("transition", "d"),
+            "previous_gloss": ("sign before", ""),
+            "next_gloss": ("sign after", ""),
+            "start_s": ("from (s)", S3),
+            "end_s": ("to (s)", S3),
+            "duration_s": ("duration (s)", S3),
+            "status": ("status", ""),
+        },
+        file=path,
+        most=6,
+    )
+
+
+def _sign_types(shown: Shown, name: str) -> TableView:
+    path = shown.file(name, "sign_types.csv")
+    frame = read_table(path, "sign_types")
+    known = frame[frame["lexicon"] != ""]
+    table = pd.crosstab(frame["lexicon"].replace("", "not in signs.csv"), frame["kinematic"])
+    agree = int((known["lexicon"] == known["kinematic"]).sum())
+    told = (
+        f"Of {len(known)} signs with a type in signs.csv, motion alone gives the same type to "
+        f"{agree} ({agree / len(known):.0%}). "
+        if len(known)
+        else "No gloss stands in signs.csv. "
+    )
+    columns: dict[str, tuple[str, str]] = {"lexicon": ("lexicon \\ from motion", "")}
+    columns |= {str(kind): (str(kind) or "none", "d") for kind in table.columns}
+    return TableView(
+        label="",
+        title="Sign types: lexicon and motion",
+        caption=told + "The lexicon goes first; types from motion are marked kinematic in "
+        "transitions.csv. Two digits: hands (0 one, 1 two, 2 one with the other keeping the "
+        "context), symmetry.",
+        frame=table.reset_index(),
+        columns=columns,
+        file=path,
+    )
+
+
+def _simulation(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
+    error_path = shown.file(name, "truth_error.csv")
+    yield TableView(
+        label="",
+        title="Error of the tags to the true boundaries",
+        caption="Mean absolute error before and after refinement, with 95 % bootstrap intervals.",
+        frame=read_table(error_path, "truth_error"),
+        columns={
+            "hand": ("hand", ""),
+            "segmentation": ("tags", ""),
+            "n": ("n", "d"),
+            "mean_error_s": ("mean error (s)", ".4f"),
+            "low_s": ("2.5 %", ".4f"),
+            "high_s": ("97.5 %", ".4f"),
+            "median_error_s": ("median (s)", ".4f"),
+            "within_20ms": ("within 0.02 s", ".0%"),
+        },
+        file=error_path,
+    )
+    path = shown.file(name, "surface.csv")
+    frame = read_table(path, "surface")
+    unit = shown.settings.transitions.euclidean_unit_m
+    yield TableView(
+        label="",
+        title="The duration surface found again (eq. 4)",
+        caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
+        f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
+        f"paper: {shown.constants['mean_error']} s). Designed: the same fit on the distances "
+        "that the simulation was made to have between the true boundaries; the tags stand off "
+        "these, which shifts the fit.",
+        frame=frame,
+        columns={
+            "coefficient": ("coefficient", ""),
+            "published": ("printed", ""),
+            "designed": ("designed", ".6f"),
+            "fitted": ("fitted", ".6f"),
+            "low": ("95 % low", ".4f"),
+            "high": ("95 % high", ".4f"),
+            "shift_percent": ("shift (%)", "+.1f"),
+        },
+        file=path,
+    )
+    base = shown.file(name, "fig_simulation")
+    yield FigureView(
+        label="",
+        title="Truth found again",
+        caption="Left: share of tags over their error to the true boundary, before (dashed) and "
+        "after refinement. Right: coefficients of the surface over the printed ones.",
+        svg=base.with_suffix(".svg"),
+        files=figure_files(base, ".svg", ".pdf"),
+    )
