@@ -21,6 +21,7 @@ import jsonschema
 import yaml
 
 from signkin import joints as joint_names
+from signkin.annotation import TierWish, tier_key
 from signkin.errors import SignkinError, listed
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
@@ -36,6 +37,8 @@ class Entry:
 
     sign, repetition: the gloss of a recording that holds one sign and the number of this
     repetition, from 1; empty and None for a recording of continuous signing.
+    from_s, to_s: the stretch of the annotation's time that the recording is, where the
+    annotation is that of a longer one; clock_offset_s: added to the annotation's times besides.
     """
 
     recording: str
@@ -46,6 +49,9 @@ class Entry:
     line: int
     sign: str = ""
     repetition: int | None = None
+    from_s: float = 0.0
+    to_s: float | None = None
+    clock_offset_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -132,25 +138,59 @@ class Corpus:
     def annotation_spec(self, entry: Entry) -> dict[str, Any]:
         """Return the arguments of `read_annotation` for one recording."""
         annotation = self.settings["annotation"]
+        wishes = {tier_key(w): w for own in self.tiers_of(entry).values() for w in own.values()}
         return {
             "format": annotation.get("format"),
-            "tiers": tuple(dict.fromkeys(self.tiers.values())),
+            "tiers": tuple(wishes.values()),
             "name": entry.recording,
             "part": entry.part or None,
+            "gloss": annotation.get("gloss"),
+            "from_s": entry.from_s,
+            "to_s": entry.to_s,
+            "clock_offset_s": entry.clock_offset_s,
             **annotation.get("options", {}),
         }
 
     @property
-    def tiers(self) -> dict[str, str]:
-        """Tier of each role: sign, and utterance and translation where the corpus names them."""
+    def tiers(self) -> dict[str, Any]:
+        """Tiers of each role: sign, and utterance and translation where the corpus names them."""
         annotation = self.settings.get("annotation", {})
-        roles = ("sign", "utterance", "translation")
-        return {r: annotation[f"{r}_tier"] for r in roles if annotation.get(f"{r}_tier")}
+        out = {"sign": annotation.get("sign_tiers") or annotation.get("sign_tier")}
+        for role in ("utterance", "translation"):
+            out[role] = annotation.get(f"{role}_tier")
+        return {role: wanted for role, wanted in out.items() if wanted}
+
+    def tiers_of(self, entry: Entry) -> dict[str, dict[str, TierWish]]:
+        """Return, for each role, the tiers of one recording by hand (`both` where none is told).
+
+        `{signer}`, `{recording}` and `{part}` in a name stand for the recording's own.
+        """
+        out: dict[str, dict[str, TierWish]] = {}
+        for role, wanted in self.tiers.items():
+            by_hand = wanted if _is_by_hand(wanted) else {"both": wanted}
+            out[role] = {hand: _filled(wish, entry) for hand, wish in by_hand.items()}
+        return out
+
+    def dominant_hand(self, entry: Entry) -> str:
+        """Return `left` for signers whom the corpus calls left-handed, else `right`."""
+        return "left" if entry.signer in self.settings.get("left_handed", ()) else "right"
 
     def files(self) -> list[str]:
         """Return the data files of all recordings, each once, in order."""
         names = [n for e in self.entries for n in (e.motion, e.annotation) if n]
         return list(dict.fromkeys(names))
+
+
+def _is_by_hand(wanted: Any) -> bool:
+    return isinstance(wanted, Mapping) and not {"pattern", "participant"} & set(wanted)
+
+
+def _filled(wish: TierWish, entry: Entry) -> TierWish:
+    if isinstance(wish, Mapping):
+        return {key: str(_filled(value, entry)) for key, value in wish.items()}
+    for key in ("signer", "recording", "part"):
+        wish = wish.replace(f"{{{key}}}", getattr(entry, key))
+    return wish
 
 
 def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corpus]:
@@ -297,6 +337,9 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
             line=line,
             sign=sign,
             repetition=repetition,
+            from_s=float(row.get("from_s") or 0),
+            to_s=float(row["to_s"]) if row.get("to_s") else None,
+            clock_offset_s=float(row.get("clock_offset_s") or 0),
         )
     if not count:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)

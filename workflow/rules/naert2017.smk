@@ -119,6 +119,7 @@ rule write_elan:
     input:
         boundaries=rules.naert_tables.output.boundaries,
         about=rules.gather.output.recordings,
+        intervals=rules.gather.output.intervals,
         annotation=lambda w: PLAN.annotation_files(w.corpus),
     output:
         folder=directory("<results>/naert2017/{corpus}/eaf"),
@@ -126,6 +127,7 @@ rule write_elan:
         "<logs>/naert2017/{corpus}/elan.log",
     params:
         code=PLAN.digest("naert2017/elan.py"),
+        elan=lambda w: w.corpus in PLAN.with_elan,
         data=lambda w: str(PLAN.folders[w.corpus]),
     script:
         "../scripts/naert2017/elan.py"
@@ -158,7 +160,7 @@ rule naert2017:
     input:
         collect(rules.naert_tables.output, corpus=PLAN.tagged),
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
-        collect(rules.write_elan.output, corpus=PLAN.with_elan),
+        collect(rules.write_elan.output, corpus=PLAN.tagged),
         collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),
 
 

@@ -9,7 +9,7 @@ A format is one file in this folder: it registers a function with
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,9 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from signkin.annotation import Annotation
+from signkin.annotation import Annotation, TierWish
+from signkin.annotation_rules import GlossRules, excerpt
 from signkin.clock import FASTEST_HZ, SLOWEST_HZ, no_rate_of_motion
 from signkin.errors import SignkinError, listed
+from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
@@ -99,6 +101,11 @@ def motion_formats() -> tuple[str, ...]:
 def annotation_formats() -> tuple[str, ...]:
     """Return the names of the annotation formats that can be read."""
     return tuple(sorted(_ANNOTATION))
+
+
+def wants_rate(format: str) -> bool:
+    """Whether an annotation format counts in frames of the motion (option `rate_hz`)."""
+    return format in _ANNOTATION and "rate_hz" in annotation_options(_ANNOTATION[format][0])
 
 
 def read_recording(
@@ -248,25 +255,41 @@ def _clock(source: SourceMotion, rate_hz: float, clock: str | None) -> tuple[str
 def read_annotation(
     path: str | Path,
     *,
-    tiers: tuple[str, ...] | None = None,
+    tiers: str | Sequence[TierWish] | None = None,
     name: str | None = None,
     format: str | None = None,
     part: str | None = None,
+    gloss: Mapping[str, Any] | None = None,
+    from_s: float = 0.0,
+    to_s: float | None = None,
+    clock_offset_s: float = 0.0,
+    clip: Sequence[TierWish] = (),
     **options: Any,
 ) -> Annotation:
-    """Read the intervals of the named tiers (None: all); times in seconds from the start.
+    """Read the intervals of tiers (None: all); times in seconds from the recording's start.
+
+    path: the file; its suffix tells the format unless `format` does.
+    tiers: names, or mappings with `pattern` (`Gloss*`) and `participant`.
+    gloss: rules for labels, `{strip: ["*"], merge: {HOUSE1: HOUSE}}`; see `GlossRules`.
+    from_s, to_s: the stretch of the file's time that the recording is; from_s becomes 0.
+    clock_offset_s: added to the file's times besides.
+    clip: tiers (of utterances, say) whose intervals are cut at the ends of that stretch, where
+    those of other tiers are left out and listed.
+    options: what the format wants to know besides (see its module).
 
     Raises SignkinError with the file and the tier.
     """
     path = Path(path)
     reader = _find(_ANNOTATION, path, format, "annotation")
-    try:
-        _check_options(reader, options, ("tiers", "name", "part"), ())
-    except SignkinError as error:
-        raise brief(error.at(file=path)) from error
-    spec = {"tiers": tiers, "name": name, "part": part, **options}
+    check_annotation_options(reader, options, path)
+    asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
+    spec = {"tiers": asked, "name": name, "part": part, **options}
     annotation: Annotation = _guarded(reader, path, False, **spec)
-    return annotation
+    try:
+        annotation = excerpt(annotation, from_s, to_s, clock_offset_s, clip)
+        return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
+    except SignkinError as error:
+        raise error.at(file=path) from error
 
 
 def in_file_axes(

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
+from signkin.settings.annotation import Annotation
 from signkin.settings.base import Hertz, Positive, Section, key
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
@@ -59,29 +60,6 @@ class Motion(Section):
     options: dict[str, Any] = key(
         {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."
     )
-
-
-class Annotation(Section):
-    """How annotation files are read."""
-
-    format: Literal["eaf", "csv"] = key(text="Format of the annotation files.")
-    sign_tier: Text = key(text="Tier of the signs.")
-    utterance_tier: Text | None = key(
-        None, "Tier whose intervals are the utterances; or utterance_gap_s."
-    )
-    utterance_gap_s: Positive | None = key(
-        None, "A pause longer than this ends an utterance (where no tier tells).", unit="s"
-    )
-    translation_tier: Text | None = key(None, "Tier with translations, for Table 1.")
-    options: dict[str, Any] = key(
-        {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."
-    )
-
-    @model_validator(mode="after")
-    def _one_rule(self) -> Annotation:
-        if self.utterance_tier is not None and self.utterance_gap_s is not None:
-            raise ValueError("utterance_tier or utterance_gap_s, not both")
-        return self
 
 
 class FoundSign(Section):
@@ -158,6 +136,9 @@ class CorpusDescription(Section):
     noise_source: str | None = key(None, "Where noise_sd comes from.")
     truth_file: str | None = key(None, "Table of true boundaries in the data folder.")
     motion: Motion = key(text="How motion files are read.")
+    left_handed: Annotated[tuple[Text, ...], Field(strict=False)] = key(
+        (), "Signers whose dominant hand is the left one."
+    )
     annotation: Annotation | None = key(
         None, "How annotation files are read; without it the corpus has no tags."
     )

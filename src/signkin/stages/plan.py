@@ -70,7 +70,7 @@ class Plan:
 
     @property
     def with_elan(self) -> list[str]:
-        """Corpora whose tags are ELAN files, which refinement writes back."""
+        """Corpora whose tags are ELAN files, which are copied; others get new ELAN files."""
         return [
             name
             for name in self.tagged
