@@ -7,11 +7,9 @@ python -m tools.numbers RESULTS DATA binning
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -21,7 +19,7 @@ from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
-from signkin.settings.legacy import legacy
+from signkin.settings import Settings, load_settings
 from signkin.stages.ingest import ingest
 from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
@@ -31,6 +29,7 @@ from signkin.studies.endres2013.posteriors import (
     chosen,
     prior_of,
 )
+from signkin.studies.endres2013.settings import CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
@@ -39,6 +38,7 @@ from signkin.studies.endres2013.single_signs import (
     single_signs,
 )
 from signkin.studies.one_wrist.long_series import long_series
+from signkin.studies.one_wrist.settings import SeriesSettings
 from tools.binning_tables import (
     MOST,
     ORDERS,
@@ -56,7 +56,6 @@ ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
 CONTINUOUS = ("lsf-sim", "dgs-1984189", "libras")
 Ints = NDArray[np.int64]
-Settings = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -100,16 +99,16 @@ VARIANTS = {
 }
 
 
-def changed(config: Settings, changes: Mapping[str, object]) -> dict[str, Any]:
-    """Return the configuration with keys below `binning` changed."""
-    out: dict[str, Any] = copy.deepcopy(dict(config))
+def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
+    """Return the settings with keys below `binning` changed."""
+    out = settings.model_dump(exclude={"corpora"})
     for key, value in changes.items():
         *above, last = key.split(".")
         at = out["binning"]
         for name in above:
             at = at[name]
         at[last] = value
-    return out
+    return load_settings(out)
 
 
 def takes(name: str, results: Path, data: Path) -> Takes | None:
@@ -123,21 +122,23 @@ def takes(name: str, results: Path, data: Path) -> Takes | None:
     return Takes(corpus, ingest(corpus, folder, entries).recordings)
 
 
-def cut(of: Takes, config: Settings, variant: Variant) -> list[Trajectory]:
+def cut(of: Takes, settings: Settings, variant: Variant) -> list[Trajectory]:
     """Return the trajectories, those with more bins than the highest order."""
     recordings = [replace(r, rate_hz=r.rate_hz * variant.rate) for r in of.recordings]
     if variant.whole:
-        config = {**config, "powerlaw": {**config["powerlaw"], "active_share": 0.0}}
-    found = single_signs(of.corpus, recordings, config, int(config["seed"])).trajectories
+        law = settings.powerlaw.model_copy(update={"active_share": 0.0})
+        settings = settings.model_copy(update={"powerlaw": law})
+    own = CutSettings.of(settings)
+    found = single_signs(of.corpus, recordings, own, settings.seed).trajectories
     return [t for t in found if len(t.x) > max(ORDERS)]
 
 
 def binned(
-    of: Takes, trajectories: Sequence[Trajectory], config: Settings, variant: Variant
+    of: Takes, trajectories: Sequence[Trajectory], settings: Settings, variant: Variant
 ) -> list[Posterior]:
     """Bin trajectories with the settings of a variant."""
     x = [t.x - t.x.mean(axis=0) + variant.offset_m for t in trajectories]
-    prior = config["binning"]["prior"]
+    prior = settings.binning.prior
     return fit_many(
         x, ORDERS, [prior_of(prior, of.corpus.noise_sd * variant.noise, one) for one in x],
         [t.bin_s for t in trajectories], max_count=variant.max_count, expectations=False,
@@ -187,10 +188,10 @@ def single_bins(posterior: Posterior, order: int) -> Ints:
     return np.sort(best[: posterior.map_count(order)])
 
 
-def outcome(of: Takes, config: Settings, variant: Variant) -> Outcome:
+def outcome(of: Takes, settings: Settings, variant: Variant) -> Outcome:
     """Bin the trajectories of a corpus under a variant."""
-    trajectories = cut(of, config, variant)
-    fits = binned(of, trajectories, config, variant)
+    trajectories = cut(of, settings, variant)
+    fits = binned(of, trajectories, settings, variant)
     by_kind = {
         kind: [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == kind]
         for kind in (RECORDED, POWERLAW)
@@ -205,21 +206,21 @@ def outcome(of: Takes, config: Settings, variant: Variant) -> Outcome:
         counts=tuple(float(np.mean([f.map_count(s) for f in recorded])) for s in (0, 3, 7)),
         posterior=mean[RECORDED],
         truths_posterior=mean.get(POWERLAW),
-        rates=rates(trajectories, fits, 3, maxima, config["binning"]["window_s"]),
+        rates=rates(trajectories, fits, 3, maxima, settings.binning.hit_window_s),
         recorded=len(recorded),
         truths=len(by_kind[POWERLAW]),
         left=sum(t.hand == "left" for t in trajectories if t.dataset == RECORDED),
     )
 
 
-def choices(of: Takes, config: Settings) -> dict[str, Outcome]:
+def choices(of: Takes, settings: Settings) -> dict[str, Outcome]:
     """Print what each variant does to a corpus; returns it."""
     print(f"\n### {of.corpus.name}: M at orders 0, 3, 7; order posterior; ground truth\n")
     print("| | M | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s | left hand |")
     print("|---" * 7 + "|")
     found = {}
     for label, variant in VARIANTS.items():
-        one = found[label] = outcome(of, changed(config, variant.config), variant)
+        one = found[label] = outcome(of, changed(settings, variant.config), variant)
         print(
             f"| {label} | {one.m()} | {one.peak} | {one.middle} | {one.truths_peak} "
             f"| {one.rates} (n = {one.truths}) | {one.left} of {one.recorded} |",
@@ -228,12 +229,12 @@ def choices(of: Takes, config: Settings) -> dict[str, Outcome]:
     return found
 
 
-def picking(of: Takes, config: Settings) -> dict[str, list[str]]:
+def picking(of: Takes, settings: Settings) -> dict[str, list[str]]:
     """Print hits on ground truth by the way in which boundaries are taken; returns the cells."""
     shipped = VARIANTS[SHIPPED]
-    trajectories = cut(of, config, shipped)
-    fits = binned(of, trajectories, config, shipped)
-    window = config["binning"]["window_s"]
+    trajectories = cut(of, settings, shipped)
+    fits = binned(of, trajectories, settings, shipped)
+    window = settings.binning.hit_window_s
     ways: dict[str, Callable[[Posterior, int], Ints]] = {
         "local maxima, 3 bins cleared": maxima,
         "local maxima": single_bins,
@@ -251,7 +252,7 @@ def picking(of: Takes, config: Settings) -> dict[str, list[str]]:
     return found
 
 
-def recovery(of: Takes, config: Settings) -> dict[tuple[str, float, float], list[str]]:
+def recovery(of: Takes, settings: Settings) -> dict[tuple[str, float, float], list[str]]:
     """Print P(true order), hit rate and false positives a second of fitted trajectories.
 
     Returns them by the kind of trajectory, b and the share of the noise.
@@ -264,17 +265,17 @@ def recovery(of: Takes, config: Settings) -> dict[tuple[str, float, float], list
         for b in (0.1, 0.001):
             for share in (1.0, 0.1, 0.0125):
                 changes = {"prior.concentration": b, "recovery_noise": share}
-                cells = found[kind, b, share] = recovered(of, changed(config, changes), kind)
+                cells = found[kind, b, share] = recovered(of, changed(settings, changes), kind)
                 print(f"| {b:g} | {share:g} | " + " | ".join(cells) + " |", flush=True)
     return found
 
 
 def recovered(
-    of: Takes, config: Settings, kind: str, orders: Sequence[int] = ORDERS[1:]
+    of: Takes, settings: Settings, kind: str, orders: Sequence[int] = ORDERS[1:]
 ) -> list[str]:
     """Return a cell for each true order."""
-    runs = Study(of.corpus, config["binning"])
-    trajectories = cut(of, config, VARIANTS[SHIPPED])
+    runs = Study(of.corpus, FitSettings.of(settings))
+    trajectories = cut(of, settings, VARIANTS[SHIPPED])
     fits = runs.run([Data(t, t.dataset, t.x, None, t.boundaries_s) for t in trajectories])
     cells = []
     for order in orders:
@@ -289,7 +290,7 @@ def recovered(
         probability = np.mean([f.posterior.order_probability[order] for f in found])
         told = [
             hit_rate(
-                f.boundaries_s(order), f.data.truth_s, config["binning"]["window_s"],
+                f.boundaries_s(order), f.data.truth_s, settings.binning.hit_window_s,
                 duration_s=f.data.source.duration_s,
             )
             for f in found
@@ -301,7 +302,7 @@ def recovered(
     return cells
 
 
-def nearest(of: Takes, config: Settings) -> dict[str, Outcome]:
+def nearest(of: Takes, settings: Settings) -> dict[str, Outcome]:
     """Print the printed prior with many degrees of freedom: what comes nearest to the paper."""
     print(f"\n### {of.corpus.name}: the printed prior (data's variances, b = 0.1, T = 100, bins)\n")
     print("| dof | M at 0, 3, 7 | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s "
@@ -312,9 +313,9 @@ def nearest(of: Takes, config: Settings) -> dict[str, Outcome]:
         changes = {
             "prior.noise": "data", "prior.scale": "plain", "prior.dof": dof, "recovery_noise": 1.0,
         }  # fmt: skip
-        settings = changed(config, changes)
-        one = out[f"{dof:,}"] = outcome(of, settings, VARIANTS[SHIPPED])
-        again = [recovered(of, settings, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
+        own = changed(settings, changes)
+        one = out[f"{dof:,}"] = outcome(of, own, VARIANTS[SHIPPED])
+        again = [recovered(of, own, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
         print(
             f"| {dof} | {one.m()} | {one.peak} | {one.middle} | {one.truths_peak} "
             f"| {one.rates} (n = {one.truths}) | {again[0]} | {again[1]} |",
@@ -340,7 +341,7 @@ def many_boundaries(results: Path) -> list[list[str]]:
     return out
 
 
-def long_ones(of: Takes, config: Settings) -> dict[str, str]:
+def long_ones(of: Takes, settings: Settings) -> dict[str, str]:
     """Print what the settings of long series do; returns boundaries a second."""
     out = {}
     variants: dict[str, dict[str, object]] = {
@@ -356,7 +357,9 @@ def long_ones(of: Takes, config: Settings) -> dict[str, str]:
     print("| | bins | right | left | cut mass | explained variance, least |")
     print("|---" * 6 + "|")
     for label, changes in variants.items():
-        found = long_series(of.corpus, of.recordings, changed(config, changes), 1)
+        found = long_series(
+            of.corpus, of.recordings, SeriesSettings.of(changed(settings, changes)), 1
+        )
         rows = found.table("wrist_posteriors", of.corpus.unit)
         by_hand = rows.groupby("hand")["boundaries_per_s"].mean()
         out[label] = f"{by_hand['right']:.2f} ({by_hand['left']:.2f})"
@@ -368,11 +371,11 @@ def long_ones(of: Takes, config: Settings) -> dict[str, str]:
     return out
 
 
-def splines(of: Takes, config: Settings) -> None:
+def splines(of: Takes, settings: Settings) -> None:
     """Print how far a path at the middle of bins is from straight lines between its samples."""
-    apart, fewer, bins = [], 0, int(config["binning"]["bins"])
+    apart, fewer, bins = [], 0, settings.binning.bins
     for recording in of.recordings:
-        movement = movement_of(recording, config)
+        movement = movement_of(recording, CutSettings.of(settings))
         path, wrist = movement.path, movement.wrist
         fewer += len(path) <= bins
         x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
@@ -388,7 +391,7 @@ def splines(of: Takes, config: Settings) -> None:
 
 def main(results: Path, data: Path) -> dict[str, str]:
     """Print every table; returns those of the page."""
-    config = legacy(shipped())
+    settings = shipped()
     single = {name: of for name in SINGLE if (of := takes(name, results, data)) is not None}
     many = table(
         ("", "n, median bins", *(f"order {order}" for order in ORDERS)), many_boundaries(results)
@@ -396,17 +399,17 @@ def main(results: Path, data: Path) -> dict[str, str]:
     print("\n### Recordings with as many bins as samples; spline against straight lines\n")
     print("| | as many | largest distance |\n|---|---|---|")
     for of in single.values():
-        splines(of, config)
-    found = {name: choices(of, config) for name, of in single.items()}
-    picked = {name: picking(of, config) for name, of in single.items()}
-    near = {name: nearest(of, config) for name, of in single.items()}
-    refound = recovery(single["isl-sim"], config)
+        splines(of, settings)
+    found = {name: choices(of, settings) for name, of in single.items()}
+    picked = {name: picking(of, settings) for name, of in single.items()}
+    near = {name: nearest(of, settings) for name, of in single.items()}
+    refound = recovery(single["isl-sim"], settings)
     series = {
-        name: long_ones(of, config)
+        name: long_ones(of, settings)
         for name in CONTINUOUS
         if (of := takes(name, results, data)) is not None
     }
-    settings = next(iter(series.values()))
+    rows = next(iter(series.values()))
     return {
         **by_variant(found),
         "binning-nu": of_many_dof(near),
@@ -416,15 +419,15 @@ def main(results: Path, data: Path) -> dict[str, str]:
         "binning-picking": of_picking(picked),
         "binning-long": table(
             ("boundaries a second, right wrist (left)", *series),
-            ([label, *(of[label] for of in series.values())] for label in settings),
+            ([label, *(of[label] for of in series.values())] for label in rows),
         ),
     }
 
 
 def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, from simulated recordings, to compare."""
-    config = legacy(shipped())
+    settings = shipped()
     of = takes("isl-sim", results, results)
     assert of is not None
-    one = outcome(of, config, VARIANTS[SHIPPED])
+    one = outcome(of, settings, VARIANTS[SHIPPED])
     return "binning-noise", f"| **sensor** | {one.m()}; {one.rates} |"

@@ -29,6 +29,7 @@ class Recording:
     orientations: (F, J, 4) unit quaternions x, y, z, w in the world frame, or None.
     orientation_source: `recorded`, `limb_frames` (made from positions) or `none`.
     parents: index of each joint's parent, -1 for a root, where a hierarchy is known.
+    notes: what was decided in reading, a sentence each (an overruled rate, a resampled clock).
     """
 
     name: str
@@ -39,6 +40,7 @@ class Recording:
     orientation_source: str = "none"
     unit: str = "m"
     parents: tuple[int, ...] | None = None
+    notes: tuple[str, ...] = ()
     _index: dict[str, int] = field(init=False, repr=False, default_factory=dict)
 
     def __post_init__(self) -> None:

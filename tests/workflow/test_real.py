@@ -3,7 +3,7 @@
 import pytest
 
 from signkin import tables
-from signkin.studies.naert2017.exhibits import counted
+from signkin.studies.naert2017.transitions import counted
 from support.runs import checked, prepare, run
 
 pytestmark = pytest.mark.usefixtures("real_corpora")

@@ -7,6 +7,7 @@ from scipy.special import gammaln, logsumexp
 from signkin.binning import Prior, counts, fit, segment_log_evidence, sum_product
 from signkin.binning.lanes import WIDTH
 from signkin.studies.endres2013.posteriors import FITTED_MAP, study
+from signkin.studies.endres2013.settings import CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import RECORDED, single_signs
 from signkin.studies.endres2013.summaries import hit_rates, known_boundaries, order_posteriors
 from support.endres import settings, simulated
@@ -18,15 +19,14 @@ TRUE_ORDERS = [1, 2, 3, 4, 5]
 def recovered():
     """Eight simulated signs, fitted with orders 1 to 5, and binned again with orders 0 to 7."""
     corpus, recordings = simulated(8)
-    own = settings(fitted_orders=TRUE_ORDERS, bootstrap_draws=20, chance_trajectories=160)
-    cut = [
-        t for t in single_signs(corpus, recordings, own, 2017).trajectories if t.dataset == RECORDED
-    ]
+    own = settings(fitted_orders=TRUE_ORDERS, bootstrap_draws=100, chance_trajectories=160)
+    whole = single_signs(corpus, recordings, CutSettings.of(own), 2017).trajectories
+    cut = [t for t in whole if t.dataset == RECORDED]
     assert len(cut) == 8
-    found = study(corpus, cut, own["binning"], 2)
+    found = study(corpus, cut, FitSettings.of(own), 2)
     binning = found.table("binning")
     truths = known_boundaries(cut, found.table("fitted_truths"))
-    rates, _ = hit_rates(corpus.name, binning, truths, own["binning"], 2017)
+    rates, _ = hit_rates(corpus.name, binning, truths, own.binning, 2017)
     exact = rates["dataset"] == FITTED_MAP
     orders = order_posteriors(corpus.name, binning)
     return orders[orders["dataset"] == FITTED_MAP], rates[exact]

@@ -7,7 +7,7 @@ bins. What cannot be used is left out with the reason.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,8 +26,10 @@ from signkin.kinematics.derivatives import speed
 from signkin.powerlaw import GroundTruth, LeftOut, WarpSettings, active_part, warp_to_power_law
 from signkin.recording import Recording
 from signkin.seeds import stream
+from signkin.settings.sections import PowerLaw
 from signkin.stages.ingest import lead
 from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist, sample_at
+from signkin.studies.endres2013.settings import CutSettings
 
 Floats = NDArray[np.float64]
 
@@ -90,18 +92,11 @@ class Movement:
 
 
 def single_signs(
-    corpus: Corpus,
-    recordings: Iterable[Recording],
-    settings: Mapping[str, Any],
-    seed: int,
+    corpus: Corpus, recordings: Iterable[Recording], settings: CutSettings, seed: int
 ) -> SingleSigns:
-    """Cut the recordings of a shard into bins, as recorded and with power-law timing.
-
-    settings: the sections `kinematics`, `binning` and `powerlaw` of config.yaml.
-    """
+    """Cut the recordings of a shard into bins, as recorded and with power-law timing."""
     out = SingleSigns()
-    warp = WarpSettings(**settings["powerlaw"])
-    bins = int(settings["binning"]["bins"])
+    bins = settings.bins
     for recording in recordings:
         start = lead(corpus, recording.name)
 
@@ -116,7 +111,7 @@ def single_signs(
                 leave_out(dataset, str(error))
             continue
         out.trajectories.append(trajectory)
-        truth = ground_truth(corpus.name, movement.wrist, warp, seed)
+        truth = ground_truth(corpus.name, movement.wrist, settings.powerlaw, seed)
         if isinstance(truth, LeftOut):
             leave_out(POWERLAW, truth.reason)
         else:
@@ -129,13 +124,12 @@ def single_signs(
     return out
 
 
-def movement_of(recording: Recording, settings: Mapping[str, Any]) -> Movement:
+def movement_of(recording: Recording, settings: CutSettings) -> Movement:
     """Return the movement of the hand that moves more (sections 2.2, 2.4)."""
-    longest_gap_s = settings["kinematics"]["longest_gap_s"]
-    hand = moving_hand(recording, longest_gap_s)
-    wrist = ready_wrist(recording, hand, longest_gap_s, settings["binning"]["lowpass"])
+    hand = moving_hand(recording, settings.longest_gap_s)
+    wrist = ready_wrist(recording, hand, settings.longest_gap_s, settings.lowpass)
     moving = speed(wrist.path, wrist.rate_hz)
-    return Movement(wrist, active_part(moving, settings["powerlaw"]["active_share"]))
+    return Movement(wrist, active_part(moving, settings.powerlaw.active_share))
 
 
 def recorded(movement: Movement, bins: int) -> Trajectory:
@@ -152,13 +146,11 @@ def recorded(movement: Movement, bins: int) -> Trajectory:
     return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0), at)
 
 
-def ground_truth(
-    corpus: str, wrist: Wrist, settings: WarpSettings, seed: int
-) -> GroundTruth | LeftOut:
+def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundTruth | LeftOut:
     """Return the recorded path with the timing of random power laws, or why there is none."""
     rng = stream(seed, corpus, wrist.recording, "powerlaw")
     try:
-        return warp_to_power_law(wrist.path, wrist.rate_hz, rng, settings)
+        return warp_to_power_law(wrist.path, wrist.rate_hz, rng, WarpSettings(**dict(law)))
     except SignkinError as error:
         return LeftOut(reason=str(error))
 
@@ -193,7 +185,7 @@ def _segments(truth: GroundTruth, unit: str) -> Iterable[dict[str, Any]]:
 
 
 def example_points(
-    corpus: Corpus, recording: Recording, settings: Mapping[str, Any], seed: int
+    corpus: Corpus, recording: Recording, settings: CutSettings, seed: int
 ) -> pd.DataFrame:
     """Return the samples of Fig. 1: path, speed and curvature, as recorded and warped.
 
@@ -201,7 +193,7 @@ def example_points(
     """
     movement = movement_of(recording, settings)
     wrist = movement.wrist
-    truth = ground_truth(corpus.name, wrist, WarpSettings(**settings["powerlaw"]), seed)
+    truth = ground_truth(corpus.name, wrist, settings.powerlaw, seed)
     if isinstance(truth, LeftOut):
         return tables.empty("fig01_powerlaw", corpus.unit)
     path = movement.path

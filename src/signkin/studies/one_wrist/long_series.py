@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,6 +20,7 @@ from signkin.recording import Recording
 from signkin.stages.ingest import lead
 from signkin.stages.wrists import in_bins, ready_wrist, sample_at
 from signkin.studies.endres2013.posteriors import explained_variance, prior_of
+from signkin.studies.one_wrist.settings import SeriesSettings
 
 Floats = NDArray[np.float64]
 Job = tuple[str, str, Floats, float, float]  # of _wrist_in_bins, by recording and hand
@@ -44,12 +45,11 @@ class LongSeries:
 
 
 def long_series(
-    corpus: Corpus, recordings: Iterable[Recording], settings: Mapping[str, Any], workers: int
+    corpus: Corpus, recordings: Iterable[Recording], settings: SeriesSettings, workers: int
 ) -> LongSeries:
-    """Bin both wrists of each recording. settings: the sections `kinematics` and `binning`."""
+    """Bin both wrists of each recording."""
     out = LongSeries()
-    own = settings["binning"]["continuous"]
-    order = int(own["order"])
+    order = settings.continuous.order
     jobs: list[Job] = []
     for recording in recordings:
         for hand in HANDS:
@@ -58,11 +58,11 @@ def long_series(
                 jobs.append((recording.name, hand, *_wrist_in_bins(recording, hand, settings)))
             except SignkinError as error:
                 out.left_out.append({**start, "reason": str(error)})
-    for longest, some in _by_longest(jobs, own["longest_segment_s"]).items():
+    for longest, some in _by_longest(jobs, settings.continuous.longest_segment_s).items():
         fits = fit_many(
             [x for _, _, x, _, _ in some],
             [order],
-            [prior_of(settings["binning"]["prior"], corpus.noise_sd, x) for _, _, x, _, _ in some],
+            [prior_of(settings.prior, corpus.noise_sd, x) for _, _, x, _, _ in some],
             [bin_s for _, _, _, bin_s, _ in some],
             workers=workers,
             names=[f"recording {name}, {hand} wrist" for name, hand, _, _, _ in some],
@@ -78,22 +78,17 @@ def long_series(
 
 
 def _wrist_in_bins(
-    recording: Recording, hand: str, settings: Mapping[str, Any]
+    recording: Recording, hand: str, settings: SeriesSettings
 ) -> tuple[Floats, float, float]:
     """Return positions, the duration of a bin, and where in its bin a position is."""
-    wrist = ready_wrist(
-        recording,
-        hand,
-        settings["kinematics"]["longest_gap_s"],
-        settings["binning"]["lowpass"],
-    )
-    own, frames, rate = settings["binning"]["continuous"], len(wrist.path), wrist.rate_hz
-    bins = min(frames, round((frames - 1) / rate / own["bin_s"]))
-    if bins <= own["order"]:
+    wrist = ready_wrist(recording, hand, settings.longest_gap_s, settings.lowpass)
+    frames, rate, order = len(wrist.path), wrist.rate_hz, settings.continuous.order
+    bins = min(frames, round((frames - 1) / rate / settings.continuous.bin_s))
+    if bins <= order:
         raise SignkinError(
             f"{bins} bins",
             file=f"recording {recording.name}",
-            expected=f"more than the order, {own['order']}",
+            expected=f"more than the order, {order}",
         )
     x, bin_s = in_bins(wrist.path, rate, bins)
     return x - x.mean(axis=0), bin_s, sample_at(frames, bins)

@@ -14,6 +14,7 @@ from signkin.seeds import stream
 from signkin.simulate import lsf
 from signkin.simulate.body import Body
 from signkin.simulate.chains import chains, fewest_chains
+from signkin.simulate.lsf import motion
 from signkin.simulate.printed import integers_with, sums_from_print
 from signkin.simulate.surface import design_distances
 
@@ -93,7 +94,7 @@ def test_the_body_is_placed_as_the_reader_places_it():
     coordinates = rng.uniform(-0.4, 0.4, (5, 24))
     rotations = body.rotations(coordinates[:, :12], coordinates[:, 12:])
     expected, _ = body.place(rotations)
-    values = lsf._channel_values(coordinates, body, quiet())
+    values = motion.channel_values(coordinates, body, quiet())
     positions, _ = forward_kinematics(body.hierarchy, values)
     assert positions == pytest.approx(expected, abs=1e-9)
 
@@ -123,7 +124,7 @@ def test_the_same_coordinates_on_both_arms_mirror_each_other():
 
 def test_minimum_jerk_rests_at_its_keys():
     at = np.arange(0, 1.0001, 0.001)
-    path = lsf.minimum_jerk([0, 1], [np.zeros(1), np.ones(1)], at)[:, 0]
+    path = motion.minimum_jerk([0, 1], [np.zeros(1), np.ones(1)], at)[:, 0]
     assert path[[0, 500, 1000]] == pytest.approx([0, 0.5, 1])
     v = np.gradient(path, at)
     assert v.max() == pytest.approx(1.875, abs=1e-3)

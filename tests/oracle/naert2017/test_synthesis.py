@@ -13,25 +13,22 @@ from signkin.errors import SignkinError
 from signkin.io.bvh import channel_values, forward_kinematics, parse_bvh
 from signkin.io.wide_csv import column_map
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.stages.ingest import ingest
-from signkin.studies.naert2017.synthesis.comparison import comparison, summary
-from signkin.studies.naert2017.synthesis.utterance import (
-    distance_scale,
-    make_utterance,
-    retrieved,
-    sign_database,
-    timing,
-    whole_takes,
-    write_utterance,
-)
+from signkin.studies.naert2017.settings import SynthesisSettings
+from signkin.studies.naert2017.synthesis.comparison import comparison
+from signkin.studies.naert2017.synthesis.database import sign_database
+from signkin.studies.naert2017.synthesis.duration_models import timing
+from signkin.studies.naert2017.synthesis.retrieval import distance_scale, retrieved
+from signkin.studies.naert2017.synthesis.summary import summary
+from signkin.studies.naert2017.synthesis.utterance import make_utterance
+from signkin.studies.naert2017.synthesis.utterance_files import whole_takes, write_utterance
 
 PRINTED = np.array([0.148777, 0.663958, 0.275229])
 
 
 @pytest.fixture(scope="module")
 def settings():
-    return legacy(Settings())
+    return SynthesisSettings.of(Settings())
 
 
 def stock(root, data, name, settings):
@@ -57,8 +54,8 @@ def spoken(libras, settings, tmp_path_factory):
     corpus, folder, base, _ = libras
     tokens = retrieved(base, ["BOCA", "ENTENDER"], "chain")
     takes = whole_takes(corpus, folder, base, ["boca", "entender"], align=True)
-    clock = timing(base, "surface", settings["durations"], PRINTED)
-    made = make_utterance(base, tokens, clock, settings["synthesis"], takes)
+    clock = timing(base, "surface", settings.durations, PRINTED)
+    made = make_utterance(base, tokens, clock, settings.synthesis, takes)
     path = write_utterance(made, corpus, folder, "boca", tmp_path_factory.mktemp("bvh") / "said")
     return made, path
 
@@ -127,8 +124,8 @@ def test_both_takes_are_told_to_differ_in_their_skeletons(spoken):
 def test_marker_like_recordings_come_as_tables_that_read_back(dgs, settings, tmp_path):
     corpus, folder, base, _ = dgs
     tokens = retrieved(base, ["CAT3", "BIRD1", "HOTEL1*"], "chain")
-    clock = timing(base, "surface", settings["durations"], PRINTED)
-    made = make_utterance(base, tokens, clock, settings["synthesis"])
+    clock = timing(base, "surface", settings.durations, PRINTED)
+    made = make_utterance(base, tokens, clock, settings.synthesis)
     path = write_utterance(made, corpus, folder, "1984189", tmp_path / "said")
     again = read_recording(path, unit="m", time_column="time_s", joints=column_map(made.motion))
     assert again.rate_hz == pytest.approx(50)
