@@ -1,6 +1,7 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
 from signkin.exhibits import exhibits, files, of_groups
 from signkin.studies.naert2017.settings import (
+    DurationSettings,
     FigureSettings,
     GridSettings,
     SynthesisSettings,
@@ -291,7 +292,7 @@ rule duration_statistics:
         code=PLAN.digest("naert2017/duration_statistics.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_statistics.py"
 
@@ -314,7 +315,7 @@ rule duration_models:
         code=PLAN.digest("naert2017/duration_models.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_models.py"
 
@@ -333,7 +334,7 @@ rule duration_surface:
     params:
         code=PLAN.digest("naert2017/duration_surface.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_surface.py"
 
