@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,20 +10,23 @@ import numpy as np
 
 from signkin.corpus import Corpus, Entry, load_corpus
 from signkin.recording import Recording
-from signkin.settings import Settings
-from signkin.settings.legacy import legacy
+from signkin.settings import Settings, load_settings
 from signkin.simulate.isl import RATE_HZ, simulate
+from signkin.studies.endres2013.settings import CutSettings
 from support.runs import ROOT
 
 JOINTS = ("right_wrist", "left_wrist")
 
 
-def settings(**binning: Any) -> dict[str, Any]:
-    """Return the sections of the shipped config.yaml that the study takes, `binning` changed."""
-    config = legacy(Settings())
-    out = {key: copy.deepcopy(config[key]) for key in ("kinematics", "binning", "powerlaw")}
-    out["binning"].update(binning)
-    return out
+def settings(choices: dict[str, Any] | None = None, **binning: Any) -> Settings:
+    """Return the shipped settings, the section `binning` and what is varied changed."""
+    changed = {"binning": binning, "open_choices": {"endres2013": choices or {}}}
+    return load_settings(changed)
+
+
+def cut(**binning: Any) -> CutSettings:
+    """Return what trajectories take of the shipped settings."""
+    return CutSettings.of(settings(**binning))
 
 
 def corpus_of(names: list[str], noise_sd: float = 0.001, unit: str = "m") -> Corpus:

@@ -1,5 +1,10 @@
 # Endres, Meirovitch, Flash & Giese 2013: single signs, ground truth, binning, tables and figures.
 from signkin.exhibits import exhibits, files, of_groups
+from signkin.studies.endres2013.settings import (
+    ChoiceSettings,
+    CutSettings,
+    FitSettings,
+)
 
 ENDRES_EXHIBITS = exhibits(PLAN.papers / "endres2013")
 
@@ -18,12 +23,8 @@ rule single_signs:
     params:
         code=PLAN.digest("endres2013/single_signs.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
-            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
-            "powerlaw": config["powerlaw"],
-        },
+        seed=SETTINGS.seed,
+        settings=CutSettings.of(SETTINGS),
     script:
         "../scripts/endres2013/single_signs.py"
 
@@ -43,11 +44,7 @@ rule bin_single_signs:
     params:
         code=PLAN.digest("endres2013/bin_single_signs.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings={
-            k: v
-            for k, v in config["binning"].items()
-            if k not in ("sensitivity", "continuous")
-        },
+        settings=FitSettings.of(SETTINGS),
     script:
         "../scripts/endres2013/bin_single_signs.py"
 
@@ -77,11 +74,8 @@ rule endres_tables:
     params:
         code=PLAN.digest("endres2013/tables.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            k: config["binning"][k]
-            for k in ("window_s", "bootstrap_draws", "chance_trajectories")
-        },
+        seed=SETTINGS.seed,
+        settings=SETTINGS.binning,
     script:
         "../scripts/endres2013/tables.py"
 
@@ -106,12 +100,8 @@ rule endres_figures:
     params:
         code=PLAN.digest("endres2013/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
-            "binning": {k: config["binning"][k] for k in ("lowpass", "bins")},
-            "powerlaw": config["powerlaw"],
-        },
+        seed=SETTINGS.seed,
+        settings=CutSettings.of(SETTINGS),
     script:
         "../scripts/endres2013/figures.py"
 
@@ -132,12 +122,8 @@ rule sensitivity:
     params:
         code=PLAN.digest("endres2013/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
-            "binning": config["binning"],
-            "powerlaw": config["powerlaw"],
-        },
+        seed=SETTINGS.seed,
+        settings=ChoiceSettings.of(SETTINGS),
     script:
         "../scripts/endres2013/open_choices.py"
 

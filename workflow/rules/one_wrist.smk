@@ -1,4 +1,5 @@
 # Two papers, one wrist: long series by Bayesian binning beside speed minima and tags.
+from signkin.studies.one_wrist.settings import SeriesSettings
 
 
 rule long_series:
@@ -16,12 +17,7 @@ rule long_series:
     params:
         code=PLAN.digest("one_wrist/long_series.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings={
-            "kinematics": {"longest_gap_s": config["kinematics"]["longest_gap_s"]},
-            "binning": {
-                k: config["binning"][k] for k in ("lowpass", "prior", "continuous")
-            },
-        },
+        settings=SeriesSettings.of(SETTINGS),
     script:
         "../scripts/one_wrist/long_series.py"
 
@@ -54,8 +50,9 @@ rule one_wrist:
     params:
         code=PLAN.digest("one_wrist/analysis.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={k: config["binning"][k] for k in ("window_s", "continuous")},
+        seed=SETTINGS.seed,
+        hit_window_s=SETTINGS.binning.hit_window_s,
+        continuous=SETTINGS.binning.continuous,
     script:
         "../scripts/one_wrist/analysis.py"
 

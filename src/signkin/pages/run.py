@@ -18,7 +18,6 @@ from signkin.pages.speeds import SPEED_PANELS
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Page, Section, TableView, figure_files
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.studies.endres2013 import report as endres_report
 from signkin.studies.naert2017 import report as naert_report
 from signkin.studies.naert2017.report import Shown
@@ -64,7 +63,7 @@ def make_page(sources: Sources) -> Page:
     sections = [_summary(sources), *_overview(sources), audit_section(sources.results)]
     sections += naert_report.sections(sources.naert)
     sections += endres_report.sections(
-        sources.results, sources.endres, sources.corpora, legacy(sources.settings)
+        sources.results, sources.endres, sources.corpora, sources.settings.binning.hit_window_s
     )
     sections += one_wrist_report.sections(sources.results, sources.corpora)
     sections.append(_data_section(sources))

@@ -7,9 +7,7 @@ path is low-passed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +18,7 @@ from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps
 from signkin.recording import Recording
+from signkin.settings.sections import BinningLowpass
 
 Floats = NDArray[np.float64]
 
@@ -43,11 +42,11 @@ class Wrist:
 
 
 def ready_wrist(
-    recording: Recording, hand: str, longest_gap_s: float, low: Mapping[str, Any]
+    recording: Recording, hand: str, longest_gap_s: float, low: BinningLowpass
 ) -> Wrist:
     """Return a hand's wrist: gaps filled, flat axes left out, low-passed.
 
-    longest_gap_s: kinematics.longest_gap_s; low: binning.lowpass, as `lowpass` takes it.
+    longest_gap_s: kinematics.longest_gap_s; low: binning.lowpass.
     An axis is flat where all its values are the same: the third coordinate of flat recordings
     (always 0), or one that a tracker never gave. It is no data: in binning, an axis without
     variance would count as a dimension that every polynomial fits.
@@ -69,7 +68,7 @@ def ready_wrist(
             "the wrist does not move", file=where, place=joint, expected="a movement"
         )
     try:
-        path = lowpass(np.ascontiguousarray(filled[:, moving]), recording.rate_hz, **low)
+        path = lowpass(np.ascontiguousarray(filled[:, moving]), recording.rate_hz, **dict(low))
     except SignkinError as error:
         raise error.at(file=where) from error
     axes = "".join(axis for axis, moves in zip(AXES, moving, strict=True) if moves)
@@ -100,3 +99,11 @@ def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
     middle = (np.arange(bins) + 0.5) * bin_s
     curve = make_interp_spline(np.arange(frames) / rate_hz, path, k=min(SPLINE_ORDER, frames - 1))
     return np.asarray(curve(middle)), bin_s
+
+
+def sample_at(frames: int, bins: int) -> float:
+    """Return where in its bin a position of `in_bins` is, as a share of the bin.
+
+    In the middle; at the start where each frame is a bin: frame i stands at i / rate.
+    """
+    return 0.0 if bins == frames else 0.5

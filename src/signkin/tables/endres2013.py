@@ -187,14 +187,14 @@ TABLES = (
     ),
     Table(
         "endres_figure",
-        "results/endres2013/<corpus>/fig03.csv to fig07.csv, figA1.csv",
+        "results/endres2013/<corpus>/fig03.csv to fig07.csv, figA1.csv, fig_one_wrist.csv",
         "a point drawn in a figure",
         (
             text("corpus", "corpus, as its folder is called"),
             text("panel", "panel, as in the figure"),
             text("series", "line or kind of mark"),
             Column("x", "", "as the panel's horizontal axis says"),
-            Column("y", "", "as the panel's vertical axis says"),
+            Column("y", "", "as the panel's vertical axis says; 0 where a line stands at x"),
             Column("x_error", "", "standard error of x, where drawn"),
             Column("y_error", "", "standard error (Fig. 3D: deviation) of y, where drawn"),
             text("label", "what is written beside it"),

@@ -23,6 +23,7 @@ from signkin.studies.endres2013.posteriors import (
     study,
     write_posteriors,
 )
+from signkin.studies.endres2013.settings import CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
@@ -47,15 +48,15 @@ def made(tmp_path_factory):
         chance_trajectories=100,
     )  # fmt: skip
     recordings = [recording_of(name, arc(seed=i)) for i, name in enumerate(names)]
-    cut = single_signs(corpus, recordings, own, 3)
-    found = study(corpus, cut.trajectories, own["binning"], 2)
+    cut = single_signs(corpus, recordings, CutSettings.of(own), 3)
+    found = study(corpus, cut.trajectories, FitSettings.of(own), 2)
     path = tmp_path_factory.mktemp("posteriors") / "p.parquet"
     write_posteriors(path, found.fits)
     gathered = {name: found.table(name) for name in ("binning", "fitted_truths")}
-    frames = summaries("tiny", gathered, cut.trajectories, own["binning"], 3)
+    frames = summaries("tiny", gathered, cut.trajectories, own.binning, 3)
     x = {t.dataset: t.x for t in cut.trajectories if t.recording == "a"}
     example = Example(
-        "a", "xyz", example_points(corpus, recordings[0], own, 3),
+        "a", "xyz", example_points(corpus, recordings[0], CutSettings.of(own), 3),
         cut.table("ground_truth", "m").query("recording == 'a'"), read_posteriors([path], "a"),
         x[RECORDED], x[POWERLAW],
     )  # fmt: skip
@@ -314,7 +315,7 @@ def test_the_list_is_what_is_drawn(root, made):
 def test_without_ground_truth_there_is_a_sentence():
     frames = {"ground_truth": tables.empty("ground_truth", "m")}
     with pytest.raises(SignkinError, match=r"tiny: no recording has a power-law ground truth"):
-        read_sources(corpus_of(["a"]), frames, {}, settings(), 3)
+        read_sources(corpus_of(["a"]), frames, {}, CutSettings.of(settings()), 3)
 
 
 def test_marks_on_one_spot_share_a_label():

@@ -1,5 +1,7 @@
 """What the paper does not print, varied on a grid of few settings."""
 
+from dataclasses import replace
+
 import pandas as pd
 import pytest
 
@@ -10,6 +12,7 @@ from signkin.studies.endres2013.figures.open_choices import OUTCOMES
 from signkin.studies.endres2013.figures.open_choices import drawn as figure_of
 from signkin.studies.endres2013.open_choices import sensitivity
 from signkin.studies.endres2013.posteriors import study
+from signkin.studies.endres2013.settings import ChoiceSettings, CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, single_signs
 from support.endres import arc, corpus_of, recording_of, settings
 
@@ -25,8 +28,8 @@ def recordings(seconds=1.6):
 
 
 def table_of(seconds=1.6, **grid):
-    own = settings(bins=30, sensitivity={**GRID, **grid})
-    return own, sensitivity(corpus_of(NAMES), recordings(seconds), own, 3, 1)
+    own = settings({**GRID, **grid}, bins=30)
+    return own, sensitivity(corpus_of(NAMES), recordings(seconds), ChoiceSettings.of(own), 3, 1)
 
 
 @pytest.fixture(scope="module")
@@ -46,9 +49,9 @@ def test_each_combination_is_a_row(found):
 def test_the_default_row_is_the_study_itself(found):
     own, table = found
     corpus = corpus_of(NAMES)
-    cut = single_signs(corpus, recordings(), own, 3).trajectories
-    binning = {**own["binning"], "orders": [0, 1, 3], "fitted_orders": [3]}
-    rows = study(corpus, cut, binning, 1).table("binning")
+    cut = single_signs(corpus, recordings(), CutSettings.of(own), 3).trajectories
+    fit = replace(FitSettings.of(own), orders=(0, 1, 3), fitted_orders=(3,))
+    rows = study(corpus, cut, fit, 1).table("binning")
     line = table.iloc[0]
     recorded = rows[rows["dataset"] == RECORDED]
     assert line["mean_count_order_0"] == recorded.query("order == 0")["map_count"].mean()
@@ -100,12 +103,12 @@ def test_recordings_without_ground_truth_are_said():
 
 def test_without_a_recording_there_is_a_sentence():
     with pytest.raises(SignkinError, match=r"tiny: no recording has a power-law ground truth"):
-        sensitivity(corpus_of(NAMES), [], settings(sensitivity=GRID), 3, 1)
+        sensitivity(corpus_of(NAMES), [], ChoiceSettings.of(settings(GRID)), 3, 1)
 
 
 def test_the_number_of_workers_changes_nothing(found):
     own, table = found
-    again = sensitivity(corpus_of(NAMES), recordings(), own, 3, 2)
+    again = sensitivity(corpus_of(NAMES), recordings(), ChoiceSettings.of(own), 3, 2)
     pd.testing.assert_frame_equal(table, again, check_exact=True)
 
 

@@ -9,12 +9,12 @@ import pytest
 
 from signkin import tables
 from signkin.binning import Prior, fit
+from signkin.binning.posterior import boundary_times
 from signkin.studies.endres2013.posteriors import (
     FITTED,
     FITTED_MAP,
     Data,
     Study,
-    boundary_times,
     chosen,
     explained_variance,
     prior_id,
@@ -24,6 +24,7 @@ from signkin.studies.endres2013.posteriors import (
     study,
     write_posteriors,
 )
+from signkin.studies.endres2013.settings import FitSettings
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
 from support.endres import corpus_of, settings
 
@@ -46,10 +47,14 @@ def trajectory(name="a", dataset=RECORDED, truth=(), **how):
 
 
 def small(**changes):
-    return settings(orders=[0, 1, 2], fitted_orders=[1, 2], **changes)["binning"]
+    return FitSettings.of(settings(orders=[0, 1, 2], fitted_orders=[1, 2], **changes))
 
 
-PRIOR = settings()["binning"]["prior"]
+PRIOR = settings().binning.prior
+
+
+def changed(**keys):
+    return PRIOR.model_copy(update=keys)
 
 
 def test_the_prior_is_as_the_configuration_says():
@@ -57,7 +62,7 @@ def test_the_prior_is_as_the_configuration_says():
     assert prior_of(PRIOR, 0.003, x) == Prior(
         noise_sd=0.003, dof=None, concentration=0.1, time_unit="bin", scale="expected"
     )
-    data = prior_of({**PRIOR, "noise": "data", "dof": 7, "scale": "plain"}, 0.003, x)
+    data = prior_of(changed(noise="data", dof=7.0, scale="plain"), 0.003, x)
     mean = x.sum(axis=0) / len(x)
     variance = ((x - mean) ** 2).sum(axis=0) / (len(x) - 1)
     assert np.square(data.noise_sd) == pytest.approx(variance)
@@ -68,8 +73,8 @@ def test_priors_have_different_names():
     assert prior_id(PRIOR) == "dofL sensor expected b0.1 bin"
     assert prior_id(PRIOR, 0.1) == "dofL 0.1xsensor expected b0.1 bin"
     others = [
-        {**PRIOR, "dof": 5}, {**PRIOR, "noise": "data"}, {**PRIOR, "scale": "plain"},
-        {**PRIOR, "concentration": 0.001}, {**PRIOR, "time_unit": "second"},
+        changed(dof=5.0), changed(noise="data"), changed(scale="plain"),
+        changed(concentration=0.001), changed(time_unit="second"),
     ]  # fmt: skip
     names = {prior_id(PRIOR), prior_id(PRIOR, 0.1), *map(prior_id, others)}
     assert len(names) == 7
@@ -134,7 +139,7 @@ def test_fits_have_the_priors_noise_or_a_share_of_it():
         (found,) = Study(corpus, small()).run([Data(t, RECORDED, t.x, None, np.empty(0), share)])
         expected = fit(x, [0, 1, 2], Prior(noise_sd=0.004 * share), dt_s=BIN_S)
         assert (found.posterior.log_evidence == expected.log_evidence).all()
-    data = small(prior={**PRIOR, "noise": "data"})
+    data = small(prior={"noise": "data"})
     (found,) = Study(corpus, data).run([Data(t, RECORDED, t.x, None, np.empty(0), 0.5)])
     expected = fit(x, [0, 1, 2], Prior(noise_sd=tuple(0.5 * x.std(axis=0, ddof=1))), dt_s=BIN_S)
     assert found.posterior.log_evidence == pytest.approx(expected.log_evidence, rel=1e-12)
@@ -143,7 +148,7 @@ def test_fits_have_the_priors_noise_or_a_share_of_it():
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_the_most_probable_fit_is_a_polynomial_in_each_piece(order):
     corpus = corpus_of(["a"])
-    runs = Study(corpus, settings(orders=list(range(order + 1)))["binning"])
+    runs = Study(corpus, FitSettings.of(settings(orders=list(range(order + 1)))))
     bins, ends = 45, (13, 29)
     t = replace(trajectory(), x=piecewise(seed=order, order=order, bins=bins, ends=ends))
     (found,) = runs.run([Data(t, RECORDED, t.x, None, np.empty(0))])
@@ -169,7 +174,7 @@ def test_the_most_probable_fit_is_a_polynomial_in_each_piece(order):
 
 def test_rows_are_those_of_the_table_and_hits_are_against_the_own_truth():
     corpus = corpus_of(["a", "b"])
-    chosen_settings = small(window_s=0.05)
+    chosen_settings = small(hit_window_s=0.05)
     runs = Study(corpus, chosen_settings)
     truth = (np.array(PIECES) + 1) * BIN_S
     recorded = trajectory()

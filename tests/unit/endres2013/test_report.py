@@ -1,9 +1,12 @@
 """What the report says of Bayesian binning, from tables with known numbers."""
 
+import json
+
 import pandas as pd
 import pytest
 
 from signkin import tables
+from signkin.exhibits import exhibits, of_groups
 from signkin.studies.endres2013 import report as endres_report
 
 ORDERS = range(8)
@@ -112,3 +115,17 @@ def test_draws_are_counted_once_a_recording(tmp_path):
     assert "Of 40 draws" in view.caption
     found = view.frame[["reason", "rejected", "recordings"]].to_numpy().tolist()
     assert found == [["too fast", 36, 2], ["too short", 2, 1]]
+
+
+def test_figures_stand_in_the_order_of_the_list_with_what_is_added(tmp_path, root):
+    listing = of_groups(exhibits(root / "papers" / "endres2013"), "figures")
+    told = {exhibit.stem: f"Caption of {exhibit.stem}." for exhibit in reversed(listing)}
+    (tmp_path / "captions.json").write_text(json.dumps(told))
+    views = list(endres_report.figure_views(tmp_path, listing, " Simulated."))
+    assert [view.svg.stem for view in views] == [exhibit.stem for exhibit in listing]
+    assert views[0].caption == "Caption of fig01. Simulated."
+    for view, exhibit in zip(views, listing, strict=True):
+        assert (view.label, view.title, view.differs) == (
+            exhibit.label, exhibit.title, exhibit.differs,
+        )  # fmt: skip
+        assert {file.suffix for file in view.files} == {".svg", ".pdf", ".csv"}

@@ -19,13 +19,14 @@ from signkin.studies.endres2013.single_signs import (
     single_signs,
     write_trajectories,
 )
-from support.endres import arc, corpus_of, recording_of, settings
+from support.endres import arc, corpus_of, recording_of
+from support.endres import cut as cut_settings
 
 
 def test_the_hand_that_moves_more_is_taken():
     small = 0.5 * arc()
-    assert movement_of(recording_of("a", arc(), small), settings()).wrist.hand == "right"
-    left = movement_of(recording_of("a", small, arc()), settings())
+    assert movement_of(recording_of("a", arc(), small), cut_settings()).wrist.hand == "right"
+    left = movement_of(recording_of("a", small, arc()), cut_settings())
     assert left.wrist.hand == "left"
     assert left.wrist.path == pytest.approx(lowpass(arc(), 100.0, 6.0, method="fir"))
     moving = np.linalg.norm(np.gradient(left.wrist.path, 0.01, axis=0), axis=1)
@@ -38,8 +39,8 @@ def test_the_hand_that_moves_more_is_taken():
 def test_a_short_gap_is_filled():
     path = arc()
     path[80:90] = np.nan  # 0.1 s
-    filled = movement_of(recording_of("a", path), settings()).wrist.path
-    whole = movement_of(recording_of("a", arc()), settings()).wrist.path
+    filled = movement_of(recording_of("a", path), cut_settings()).wrist.path
+    whole = movement_of(recording_of("a", arc()), cut_settings()).wrist.path
     assert np.abs(filled - whole).max() < 0.02 * np.ptp(whole, axis=0).max()
 
 
@@ -65,11 +66,11 @@ REASONS = {
 @pytest.mark.parametrize("kind", REASONS)
 def test_what_cannot_be_cut_says_why_and_names_the_recording(kind):
     with pytest.raises(SignkinError, match=REASONS[kind]):
-        movement_of(spoiled(kind), settings())
+        movement_of(spoiled(kind), cut_settings())
 
 
 def test_a_movement_of_one_sample_is_refused():
-    movement = movement_of(recording_of("a", arc()), settings())
+    movement = movement_of(recording_of("a", arc()), cut_settings())
     with pytest.raises(SignkinError, match=r"recording a: the movement has 1 samples"):
         recorded(replace(movement, active=slice(80, 81)), 100)
 
@@ -81,7 +82,7 @@ def test_every_recording_is_cut_or_listed():
     bad = [spoiled(kind) for kind in REASONS]
     recordings = [*good, short, *bad]
     corpus = corpus_of([r.name for r in recordings])
-    out = single_signs(corpus, recordings, settings(bins=50), 3)
+    out = single_signs(corpus, recordings, cut_settings(bins=50), 3)
 
     cut = [(t.recording, t.dataset) for t in out.trajectories]
     listed = [(row["recording"], row["dataset"]) for row in out.left_out]
@@ -125,11 +126,11 @@ def test_every_recording_is_cut_or_listed():
 def test_a_recording_does_not_depend_on_the_others():
     recordings = [recording_of(f"r{i}", arc(seed=i)) for i in range(3)]
     corpus = corpus_of([r.name for r in recordings])
-    whole = single_signs(corpus, recordings, settings(), 3).trajectories
-    alone = single_signs(corpus, recordings[2:], settings(), 3).trajectories
+    whole = single_signs(corpus, recordings, cut_settings(), 3).trajectories
+    alone = single_signs(corpus, recordings[2:], cut_settings(), 3).trajectories
     for a, b in zip(whole[4:], alone, strict=True):
         assert (a.x == b.x).all() and (a.boundaries_s == b.boundaries_s).all()
-    other = single_signs(corpus, recordings[2:], settings(), 4).trajectories
+    other = single_signs(corpus, recordings[2:], cut_settings(), 4).trajectories
     assert (other[0].x == alone[0].x).all()
     assert (other[1].boundaries_s != alone[1].boundaries_s).all()
 
@@ -139,10 +140,10 @@ def test_flat_recordings_have_two_dimensions():
     path[:, 2] = 0
     recording = recording_of("flat", path, unit="px")
     corpus = corpus_of(["flat"], noise_sd=1.0, unit="px")
-    out = single_signs(corpus, [recording], settings(), 3)
+    out = single_signs(corpus, [recording], cut_settings(), 3)
     assert [t.x.shape for t in out.trajectories] == [(100, 2), (100, 2)]
     assert "top_speed_px_per_s" in out.table("ground_truth", "px").columns
-    points = example_points(corpus, recording, settings(), 3)
+    points = example_points(corpus, recording, cut_settings(), 3)
     assert list(points.columns) == tables.TABLES["fig01_powerlaw"].names("px")
     assert points["z_px"].isna().all() and points["x_px"].notna().all()
 
@@ -151,19 +152,19 @@ def test_an_axis_that_never_moves_is_no_data_and_the_others_keep_their_names():
     path = arc(seconds=2.0)
     path[:, 1] = 0.4  # a depth that the tracker never gave
     recording, corpus = recording_of("a", path), corpus_of(["a"])
-    out = single_signs(corpus, [recording], settings(), 3)
+    out = single_signs(corpus, [recording], cut_settings(), 3)
     assert [t.x.shape[1] for t in out.trajectories] == [2, 2]
-    points = example_points(corpus, recording, settings(), 3)
+    points = example_points(corpus, recording, cut_settings(), 3)
     assert points["y_m"].isna().all()
     before = points[points["dataset"] == RECORDED]
-    movement = movement_of(recording, settings())
+    movement = movement_of(recording, cut_settings())
     assert before[["x_m", "z_m"]].to_numpy() == pytest.approx(movement.path)
 
 
 def test_a_movement_along_one_axis_has_bins_but_no_ground_truth():
     path = arc()
     path[:, 1:] = 0
-    out = single_signs(corpus_of(["a"]), [recording_of("a", path)], settings(), 3)
+    out = single_signs(corpus_of(["a"]), [recording_of("a", path)], cut_settings(), 3)
     assert [(t.dataset, t.x.shape[1]) for t in out.trajectories] == [(RECORDED, 1)]
     (row,) = out.left_out
     assert row["dataset"] == POWERLAW and "(160, 1)" in row["reason"]
@@ -172,25 +173,25 @@ def test_a_movement_along_one_axis_has_bins_but_no_ground_truth():
 def test_points_of_the_first_figure_are_path_and_warped_path():
     recording = recording_of("a", arc())
     corpus = corpus_of(["a"])
-    points = example_points(corpus, recording, settings(), 3)
+    points = example_points(corpus, recording, cut_settings(), 3)
     assert list(points.columns) == tables.TABLES["fig01_powerlaw"].names("m")
-    movement = movement_of(recording, settings())
+    movement = movement_of(recording, cut_settings())
     before = points[points["dataset"] == RECORDED]
     assert before[["x_m", "y_m", "z_m"]].to_numpy() == pytest.approx(movement.path)
     assert set(before["segment"]) == {1, 2, 3}
-    truth = single_signs(corpus, [recording], settings(), 3).table("ground_truth", "m")
+    truth = single_signs(corpus, [recording], cut_settings(), 3).table("ground_truth", "m")
     after = points[points["dataset"] == POWERLAW]
     assert after.groupby("segment")["time_s"].max().to_numpy() == pytest.approx(
         truth["end_s"].to_numpy(), abs=1 / 240 + 1e-9
     )
-    unwarped = example_points(corpus, recording_of("a", arc(seconds=0.7)), settings(), 3)
+    unwarped = example_points(corpus, recording_of("a", arc(seconds=0.7)), cut_settings(), 3)
     assert unwarped.empty and list(unwarped.columns) == list(points.columns)
 
 
 def test_trajectories_come_back_from_their_files(tmp_path):
     recordings = [recording_of(f"r{i}", arc(seed=i)) for i in range(2)]
     corpus = corpus_of([r.name for r in recordings])
-    cut = single_signs(corpus, recordings, settings(bins=30), 3).trajectories
+    cut = single_signs(corpus, recordings, cut_settings(bins=30), 3).trajectories
     write_trajectories(tmp_path / "a.parquet", cut[:1])
     write_trajectories(tmp_path / "b.parquet", cut[1:])
     write_trajectories(tmp_path / "none.parquet", [])

@@ -6,6 +6,7 @@ import pytest
 from scipy.stats import friedmanchisquare, kruskal
 
 from signkin import tables
+from signkin.settings.sections import Binning
 from signkin.studies.endres2013.posteriors import FITTED, FITTED_MAP
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
 from signkin.studies.endres2013.summaries import (
@@ -19,7 +20,7 @@ from signkin.studies.endres2013.summaries import (
     rates_by_order,
 )
 
-SETTINGS = {"window_s": 0.09, "bootstrap_draws": 50, "chance_trajectories": 400}
+SETTINGS = Binning().model_copy(update={"bootstrap_draws": 50, "chance_trajectories": 400})
 
 
 def row(recording, dataset, order, probability, counts=(None, None, None), **more):

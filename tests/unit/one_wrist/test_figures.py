@@ -12,7 +12,7 @@ from signkin.studies.one_wrist.figures import drawn, example_frames
 from support.endres import corpus_of, settings
 from support.wrists import FOUND_S, MINIMA_S, tables_of_events
 
-OWN = settings(continuous={"bin_s": 0.04, "longest_segment_s": 1.0, "order": 1})["binning"]
+OWN = settings(continuous={"bin_s": 0.04, "longest_segment_s": 1.0, "order": 1}).binning.continuous
 
 
 def frames_of(recording, seconds, unit):
@@ -29,7 +29,7 @@ def test_the_figure_draws_what_the_points_say(unit):
     events = events_of(found, minima, tags)
     table, rates = one_wrist(corpus, about, posteriors, events, 0.09, 5)
     with paper_style():
-        one = drawn(corpus, table, rates, frames_of("a", 4, unit), events, OWN)
+        one = drawn(corpus, table, rates, frames_of("a", 4, unit), events, OWN, 0.09)
         one.figure.canvas.draw()
     assert list(one.data.columns) == tables.TABLES["endres_figure"].names()
     speeds, panels = one.figure.axes[:2], one.figure.axes[2:]
@@ -75,7 +75,7 @@ def test_a_long_recording_is_drawn_in_part():
     events = events_of(found, minima, None)
     table, rates = one_wrist(corpus, about, posteriors, events, 0.09, 5)
     with paper_style():
-        one = drawn(corpus, table, rates, frames_of("a", 24, "m"), events, OWN)
+        one = drawn(corpus, table, rates, frames_of("a", 24, "m"), events, OWN, 0.09)
     excerpt = one.data[one.data["panel"].isin(["right wrist", "left wrist"])]
     assert excerpt["x"].between(23.98 / 3, 23.98 / 3 + 6).all()
     right = excerpt.query("panel == 'right wrist' and series == 'boundaries'")

@@ -1,5 +1,7 @@
 """Wrists of continuous recordings as long series."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,10 +9,11 @@ import pytest
 from signkin import tables
 from signkin.studies.one_wrist import long_series as module
 from signkin.studies.one_wrist.long_series import long_series
+from signkin.studies.one_wrist.settings import SeriesSettings
 from support.endres import corpus_of, recording_of, settings
 
 RATE = 50.0
-OWN = settings(continuous={"bin_s": 0.04, "longest_segment_s": 1.0, "order": 1})
+OWN = SeriesSettings.of(settings(continuous={"bin_s": 0.04, "longest_segment_s": 1.0, "order": 1}))
 CORNERS_S = (0.8, 1.6, 2.4)
 
 
@@ -80,7 +83,7 @@ def test_what_cannot_be_binned_is_listed_and_the_rest_goes_on():
         recording_of("slow", zigzag()[::4], zigzag()[::4], 12.5),
     ]
     corpus = corpus_of([r.name for r in recordings], noise_sd=0.002)
-    high = settings(continuous={"bin_s": 0.04, "longest_segment_s": 1.0, "order": 3})
+    high = replace(OWN, continuous=OWN.continuous.model_copy(update={"order": 3}))
     found = long_series(corpus, recordings, high, 1)
     binned = [(r["recording"], r["hand"]) for r in found.posteriors]
     assert binned == [("gaps", "left"), ("still", "right"), ("nothing", "right")]

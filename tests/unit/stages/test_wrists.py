@@ -6,10 +6,12 @@ import pytest
 from signkin.errors import SignkinError
 from signkin.kinematics import lowpass
 from signkin.recording import Recording
+from signkin.settings.sections import BinningLowpass
 from signkin.stages.wrists import in_bins, moving_hand, ready_wrist
 from support.endres import arc, recording_of
 
-LOW = {"method": "fir", "cutoff_hz": 6.0}
+SETTINGS = BinningLowpass(cutoff_hz=5.0)
+LOW = {"method": "fir", "cutoff_hz": 5.0}
 
 
 @pytest.mark.parametrize(
@@ -19,7 +21,7 @@ LOW = {"method": "fir", "cutoff_hz": 6.0}
 def test_an_axis_without_movement_is_left_out_whichever_it_is(flat, axes, value):
     path = arc()
     path[:, flat] = value
-    wrist = ready_wrist(recording_of("a", path), "right", 0.2, LOW)
+    wrist = ready_wrist(recording_of("a", path), "right", 0.2, SETTINGS)
     assert wrist.axes == axes
     moving = ["xyz".index(axis) for axis in axes]
     assert wrist.path == pytest.approx(lowpass(arc()[:, moving], 100.0, **LOW))
@@ -29,7 +31,7 @@ def test_an_axis_without_movement_is_left_out_whichever_it_is(flat, axes, value)
 def test_each_hand_can_be_asked_for():
     recording = recording_of("a", arc(seed=1), 0.5 * arc(seed=2))
     for hand, path in (("right", arc(seed=1)), ("left", 0.5 * arc(seed=2))):
-        assert ready_wrist(recording, hand, 0.2, LOW).path == pytest.approx(
+        assert ready_wrist(recording, hand, 0.2, SETTINGS).path == pytest.approx(
             lowpass(path, 100.0, **LOW)
         )
 
@@ -38,9 +40,9 @@ def test_gaps_are_filled_up_to_the_longest():
     path = arc()
     path[80:90] = np.nan  # 0.1 s
     recording = recording_of("a", path)
-    assert np.isfinite(ready_wrist(recording, "right", 0.1, LOW).path).all()
+    assert np.isfinite(ready_wrist(recording, "right", 0.1, SETTINGS).path).all()
     with pytest.raises(SignkinError, match=r"recording a, right_wrist: 10 frames without a posi"):
-        ready_wrist(recording, "right", 0.09, LOW)
+        ready_wrist(recording, "right", 0.09, SETTINGS)
 
 
 def test_the_hand_with_the_longer_path_moves():

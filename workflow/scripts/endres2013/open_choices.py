@@ -12,7 +12,7 @@ with job(snakemake):
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
     truth = tables.read_table(source.ground_truth, "ground_truth")
-    recordings = chosen_recordings(source.recordings, truth, settings)
+    recordings = chosen_recordings(source.recordings, truth, settings.choices.recordings)
     table = sensitivity(corpus, recordings, settings, snakemake.params.seed, snakemake.threads)
     tables.write_table(table, out.sensitivity, "sensitivity", corpus.unit)
     with paper_style():

@@ -9,8 +9,8 @@ with job(snakemake):
     from signkin.studies.one_wrist.analysis import events_of, one_wrist
     from signkin.studies.one_wrist.figures import drawn, example_frames
 
-    source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
-    corpus = load_corpus(Path(snakemake.params.corpus))
+    source, out, params = snakemake.input, snakemake.output, snakemake.params
+    corpus = load_corpus(Path(params.corpus))
     made = {
         name: tables.concatenated(source[name], name, corpus.unit)
         for name in ("wrist_posteriors", "wrist_boundaries", "binning_left_out")
@@ -20,11 +20,19 @@ with job(snakemake):
     tags = tables.read_table(source.boundaries, "boundaries") if source.boundaries else None
     events = events_of(made["wrist_boundaries"], minima, tags)
     made["one_wrist"], rates = one_wrist(
-        corpus, about, made["wrist_posteriors"], events, settings["window_s"], snakemake.params.seed
+        corpus, about, made["wrist_posteriors"], events, params.hit_window_s, params.seed
     )
     frames = example_frames(source.frames, about, made["wrist_posteriors"])
     with paper_style():
-        figure = drawn(corpus, made["one_wrist"], rates, frames, events, settings)
+        figure = drawn(
+            corpus,
+            made["one_wrist"],
+            rates,
+            frames,
+            events,
+            params.continuous,
+            params.hit_window_s,
+        )
         save(figure.figure, out.svg, out.pdf)
     made["endres_figure"] = figure.data
     for name, table in made.items():

@@ -1,4 +1,4 @@
-"""What the paper does not print, varied: the prior and the number of bins (BINNING.md's question).
+"""What the paper does not print, varied: the prior and the number of bins.
 
 Every combination of degrees of freedom, noise and scale, concentration, time unit
 and bins in config.yaml, on some recordings of a corpus.
@@ -6,7 +6,8 @@ and bins in config.yaml, on some recordings of a corpus.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -21,8 +22,22 @@ from signkin.errors import SignkinError
 from signkin.io.store import read_recordings
 from signkin.recording import Recording
 from signkin.seeds import stream
-from signkin.studies.endres2013.posteriors import FITTED_MAP, Data, Fitted, Study, chosen, rows_of
-from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory, single_signs
+from signkin.settings.sections import Prior
+from signkin.studies.endres2013.posteriors import (
+    FITTED_MAP,
+    Data,
+    Fitted,
+    Study,
+    chosen,
+    rows_of,
+)
+from signkin.studies.endres2013.settings import ChoiceSettings, FitSettings
+from signkin.studies.endres2013.single_signs import (
+    POWERLAW,
+    RECORDED,
+    Trajectory,
+    single_signs,
+)
 from signkin.studies.endres2013.summaries import RATES_PER_S
 
 # Section 3.2 prints B = 0.1 I, the data's variances and T = 100; neither degrees of freedom,
@@ -33,49 +48,45 @@ CHANCE_DRAWS = 400
 
 
 def chosen_recordings(
-    paths: Iterable[str | Path], truth: pd.DataFrame, settings: Mapping[str, Any]
+    paths: Iterable[str | Path], truth: pd.DataFrame, most: int
 ) -> list[Recording]:
-    """Return the recordings to be run: some of those with a ground truth, evenly spread.
+    """Return the recordings to be run: of those with a ground truth at most so many, spread evenly.
 
     paths: the recordings of all shards. truth: the table `ground_truth`.
     """
-    names = chosen(
-        list(dict.fromkeys(truth["recording"])), settings["binning"]["sensitivity"]["recordings"]
-    )
+    names = chosen(list(dict.fromkeys(truth["recording"])), most)
     return [one for path in paths for one in read_recordings(Path(path), names)]
 
 
 def sensitivity(
-    corpus: Corpus, recordings: Sequence[Recording], settings: Mapping[str, Any], seed: int,
+    corpus: Corpus, recordings: Sequence[Recording], settings: ChoiceSettings, seed: int,
     workers: int,
 ) -> pd.DataFrame:  # fmt: skip
-    """Return the table `sensitivity`.
-
-    recordings: those to be run. settings: the sections `kinematics`, `binning`, `powerlaw`.
-    """
+    """Return the table `sensitivity` of the recordings."""
     if not recordings:
         raise SignkinError(
             "no recording has a power-law ground truth",
             file=corpus.folder,
             expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
         )
-    grid = settings["binning"]["sensitivity"]
+    grid = settings.choices
     rows = []
-    for bins in grid["bins"]:
-        binned = {**settings, "binning": {**settings["binning"], "bins": bins}}
-        cut = single_signs(corpus, recordings, binned, seed).trajectories
-        line = _chance(corpus, cut, binned["binning"], seed)
+    for bins in grid.bins:
+        cut = single_signs(corpus, recordings, replace(settings.cut, bins=bins), seed).trajectories
+        line = _chance(corpus, cut, settings.fit.hit_window_s, bins, seed)
         for dof, noise, concentration, unit in product(
-            grid["dof"], grid["noise"], grid["concentration"], grid["time_unit"]
+            grid.dof, grid.noise, grid.concentration, grid.time_unit
         ):
-            source, scale = str(noise).split()
-            prior = {
-                "noise": source,
-                "scale": scale,
-                "dof": dof,
-                "concentration": concentration,
-                "time_unit": unit,
-            }
+            source, scale = noise.split()
+            prior = Prior.model_validate(
+                {
+                    "noise": source,
+                    "scale": scale,
+                    "dof": dof,
+                    "concentration": concentration,
+                    "time_unit": unit,
+                }
+            )
             told = {
                 "corpus": corpus.name,
                 "dof": "L" if dof is None else f"{dof:g}",
@@ -84,9 +95,10 @@ def sensitivity(
                 "time_unit": unit,
                 "bins": bins,
                 "printed": _yes(source == "data" and _printed(concentration, bins)),
-                "default": _yes(_is_default(prior, bins, settings["binning"])),
+                "default": _yes(prior == settings.fit.prior and bins == settings.cut.bins),
             }
-            rows.append({**told, **_outcomes(corpus, cut, line, prior, binned["binning"], workers)})
+            fit = replace(settings.fit, prior=prior, orders=grid.orders)
+            rows.append({**told, **_outcomes(corpus, cut, line, fit, workers)})
     return pd.DataFrame(rows, columns=tables.TABLES["sensitivity"].names(corpus.unit))
 
 
@@ -98,16 +110,11 @@ def _printed(concentration: float, bins: int) -> bool:
     return {"concentration": concentration, "bins": bins} == PRINTED
 
 
-def _is_default(prior: Mapping[str, Any], bins: int, binning: Mapping[str, Any]) -> bool:
-    return dict(binning["prior"]) == dict(prior) and binning["bins"] == bins
-
-
 def _outcomes(
-    corpus: Corpus, cut: Sequence[Trajectory], line: ChanceLine | None, prior: Mapping[str, Any],
-    binning: Mapping[str, Any], workers: int,
+    corpus: Corpus, cut: Sequence[Trajectory], line: ChanceLine | None, settings: FitSettings,
+    workers: int,
 ) -> dict[str, Any]:  # fmt: skip
-    orders = binning["sensitivity"]["orders"]
-    settings = {**binning, "prior": prior, "orders": orders}
+    orders = settings.orders
     runs = Study(corpus, settings, workers)
     fits = runs.run([Data(t, t.dataset, t.x, None, t.boundaries_s) for t in cut])
     out: dict[str, Any] = {"recordings": len({t.recording for t in cut}), "note": ""}
@@ -131,21 +138,21 @@ def _outcomes(
     return {**out, **_hits(powerlaw, line)}
 
 
-def _rows(corpus: Corpus, settings: Mapping[str, Any], fits: Sequence[Fitted]) -> pd.DataFrame:
+def _rows(corpus: Corpus, settings: FitSettings, fits: Sequence[Fitted]) -> pd.DataFrame:
     return pd.DataFrame([row for one in fits for row in rows_of(corpus, settings, one)])
 
 
 def _chance(
-    corpus: Corpus, cut: Sequence[Trajectory], binning: Mapping[str, Any], seed: int
+    corpus: Corpus, cut: Sequence[Trajectory], window_s: float, bins: int, seed: int
 ) -> ChanceLine | None:
     """Return the line of no discrimination on the ground truth, whatever the prior; None: none."""
     known = [t for t in cut if t.dataset == POWERLAW]
     if not any(len(t.boundaries_s) for t in known):
         return None
-    rng = stream(seed, corpus.name, "sensitivity", str(binning["bins"]))
+    rng = stream(seed, corpus.name, "sensitivity", str(bins))
     return chance_line(
         [t.boundaries_s for t in known], [t.duration_s for t in known], rng, RATES_PER_S,
-        binning["window_s"], CHANCE_DRAWS,
+        window_s, CHANCE_DRAWS,
     )  # fmt: skip
 
 
@@ -180,7 +187,7 @@ def _hits(powerlaw: pd.DataFrame, line: ChanceLine | None) -> dict[str, Any]:
 
 
 def _recovered(
-    corpus: Corpus, runs: Study, settings: Mapping[str, Any], fits: Sequence[Fitted]
+    corpus: Corpus, runs: Study, settings: FitSettings, fits: Sequence[Fitted]
 ) -> dict[str, Any]:
     again = [
         item

@@ -24,7 +24,9 @@ from signkin.binning import Posterior, Prior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
+from signkin.settings.sections import Prior as PriorSettings
 from signkin.stages.ingest import lead
+from signkin.studies.endres2013.settings import FitSettings
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
 
 Floats = NDArray[np.float64]
@@ -32,32 +34,29 @@ Floats = NDArray[np.float64]
 FITTED, FITTED_MAP = "fitted", "fitted_map"
 
 
-def prior_of(settings: Mapping[str, Any], noise_sd: float, x: Floats) -> Prior:
+def prior_of(settings: PriorSettings, noise_sd: float, x: Floats) -> Prior:
     """Return the prior that config.yaml describes, for one trajectory (section 3.2).
 
-    settings: binning.prior. noise_sd: of the corpus's sensor. x: (T, L). `noise: data` is the
+    noise_sd: of the corpus's sensor. x: (T, L). `noise: data` is the
     printed reading: the data's own variances, one a dimension.
     """
     noise: float | tuple[float, ...] = noise_sd
-    if settings["noise"] == "data":
+    if settings.noise == "data":
         noise = tuple(float(sd) for sd in x.std(axis=0, ddof=1))
     return Prior(
         noise_sd=noise,
-        dof=settings["dof"],
-        concentration=settings["concentration"],
-        time_unit=settings["time_unit"],
-        scale=settings["scale"],
+        dof=settings.dof,
+        concentration=settings.concentration,
+        time_unit=settings.time_unit,
+        scale=settings.scale,
     )
 
 
-def prior_id(settings: Mapping[str, Any], noise_share: float = 1.0) -> str:
+def prior_id(settings: PriorSettings, noise_share: float = 1.0) -> str:
     """Return a name for the prior: `dof3 sensor expected b0.1 bin`."""
-    noise = settings["noise"] if noise_share == 1.0 else f"{noise_share:g}x{settings['noise']}"
-    dof = "L" if settings["dof"] is None else f"{settings['dof']:g}"
-    return (
-        f"dof{dof} {noise} {settings['scale']} b{settings['concentration']:g} "
-        f"{settings['time_unit']}"
-    )
+    noise = settings.noise if noise_share == 1.0 else f"{noise_share:g}x{settings.noise}"
+    dof = "L" if settings.dof is None else f"{settings.dof:g}"
+    return f"dof{dof} {noise} {settings.scale} b{settings.concentration:g} {settings.time_unit}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +84,7 @@ class Fitted:
 
     def boundaries_s(self, order: int) -> Floats:
         """Return the M_opt boundaries of an order, in s from the start."""
-        return boundary_times(self.posterior.boundaries(order), self.data.source.bin_s)
-
-
-def boundary_times(ends: NDArray[np.int64], bin_s: float) -> Floats:
-    """Return when segments end that end with the bins given: at the end of the bin."""
-    return np.asarray((np.asarray(ends) + 1) * bin_s, dtype=float)
+        return self.posterior.boundaries_s(order)
 
 
 def chosen(names: Sequence[str], most: int) -> list[str]:
@@ -104,11 +98,11 @@ def chosen(names: Sequence[str], most: int) -> list[str]:
 class Study:
     """The runs of one corpus: a trajectory in, its posterior out, with the settings of a run."""
 
-    def __init__(self, corpus: Corpus, settings: Mapping[str, Any], workers: int = 1) -> None:
-        """Take the settings of the section `binning`."""
+    def __init__(self, corpus: Corpus, settings: FitSettings, workers: int = 1) -> None:
+        """Take a corpus and the settings of a run."""
         self.corpus = corpus
         self.settings = settings
-        self.orders = tuple(settings["orders"])
+        self.orders = settings.orders
         self.workers = workers
         self.left_out: list[dict[str, Any]] = []
 
@@ -133,6 +127,7 @@ class Study:
             [item.source.bin_s for item, _, _ in usable],
             workers=self.workers,
             names=[f"recording {item.source.recording}" for item, _, _ in usable],
+            sample_at=[item.source.sample_at for item, _, _ in usable],
         )
         return [Fitted(item, one) for (item, _, _), one in zip(usable, found, strict=True)]
 
@@ -150,7 +145,7 @@ class Study:
                 file=where,
                 expected=f"more than the highest order, {max(self.orders)}",
             )
-        prior = prior_of(self.settings["prior"], self.corpus.noise_sd, x)
+        prior = prior_of(self.settings.prior, self.corpus.noise_sd, x)
         shares = np.asarray(prior.noise_sd) * item.noise_share
         noise = float(shares) if shares.ndim == 0 else tuple(float(v) for v in shares)
         return x, replace(prior, noise_sd=noise)
@@ -158,18 +153,15 @@ class Study:
     def fitted_data(self, fitted: Fitted, order: int) -> Iterator[Data]:
         """Yield both kinds of trajectory that the fit of an order makes, to be binned as data."""
         posterior, source = fitted.posterior, fitted.data.source
-        share = self.settings["recovery_noise"]
+        share = self.settings.recovery_noise
         mean = posterior.expected_trajectory(order)
         yield Data(source, FITTED, mean, order, fitted.boundaries_s(order), share)
         ends = posterior.map_segmentation(order)
         exact = posterior.map_trajectory(order)
-        truth = boundary_times(ends, source.bin_s)
-        yield Data(source, FITTED_MAP, exact, order, truth, share)
+        yield Data(source, FITTED_MAP, exact, order, posterior.times_s(ends), share)
 
 
-def rows_of(
-    corpus: Corpus, settings: Mapping[str, Any], fitted: Fitted
-) -> Iterator[dict[str, Any]]:
+def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[dict[str, Any]]:
     """Yield the rows of binning.csv for one trajectory, one an order."""
     data, posterior = fitted.data, fitted.posterior
     source = data.source
@@ -184,7 +176,7 @@ def rows_of(
             "repetition": entry.repetition,
             "dataset": data.dataset,
             "true_order": data.true_order,
-            "prior_id": prior_id(settings["prior"], data.noise_share),
+            "prior_id": prior_id(settings.prior, data.noise_share),
             "n_bins": len(x),
             "duration_s": source.duration_s,
             "order": order,
@@ -199,7 +191,7 @@ def rows_of(
             yield {**row, "note": "boundaries of recorded movements are not known"}
             continue
         rate = hit_rate(
-            fitted.boundaries_s(order), data.truth_s, settings["window_s"],
+            fitted.boundaries_s(order), data.truth_s, settings.hit_window_s,
             duration_s=source.duration_s,
         )  # fmt: skip
         hpfpps = rate.hpfpps
@@ -238,12 +230,11 @@ class Found:
 
 
 def study(
-    corpus: Corpus, trajectories: Sequence[Trajectory], settings: Mapping[str, Any], workers: int
+    corpus: Corpus, trajectories: Sequence[Trajectory], settings: FitSettings, workers: int
 ) -> Found:
     """Bin a shard's trajectories, and the trajectories fitted to some of the recorded ones.
 
-    settings: the section `binning` of config.yaml. Of all recordings of the corpus at most
-    `fitted_recordings` are fitted and binned again.
+    Of all recordings of the corpus at most `fitted_recordings` are fitted and binned again.
     """
     runs = Study(corpus, settings, workers)
     none = np.empty(0)
@@ -252,12 +243,12 @@ def study(
         for t in trajectories
     ]
     fits = runs.run(given)
-    picked = set(chosen([e.recording for e in corpus.entries], settings["fitted_recordings"]))
+    picked = set(chosen([e.recording for e in corpus.entries], settings.fitted_recordings))
     again = [
         item
         for one in fits
         if one.data.dataset == RECORDED and one.data.source.recording in picked
-        for order in settings["fitted_orders"]
+        for order in settings.fitted_orders
         for item in runs.fitted_data(one, order)
     ]
     rows = [row for one in (*fits, *runs.run(again)) for row in rows_of(corpus, settings, one)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -20,11 +19,11 @@ SIMULATED = " Simulated: a test of the method, no evidence about people."
 
 
 def sections(
-    results: Path, paper: Path, corpora: Mapping[str, Corpus], config: Mapping[str, Any]
+    results: Path, paper: Path, corpora: Mapping[str, Corpus], hit_window_s: float
 ) -> Iterator[Section]:
     """Yield the sections of the study: the model, then the corpora of single signs.
 
-    paper: the folder papers/endres2013.
+    paper: the folder papers/endres2013. hit_window_s: binning.hit_window_s.
     """
     listing = exhibits(paper)
     folder = results / "endres2013"
@@ -32,7 +31,7 @@ def sections(
     for name, corpus in corpora.items():
         if corpus.single_signs:
             shown = of_groups(listing, "figures")
-            yield _single_signs(folder / name, name, corpus, shown, config)
+            yield _single_signs(folder / name, name, corpus, shown, hit_window_s)
 
 
 def figure_views(folder: Path, listing: Iterable[Exhibit], told: str = "") -> Iterator[FigureView]:
@@ -72,13 +71,13 @@ def _model(folder: Path, listing: Iterable[Exhibit]) -> Section:
 
 
 def _single_signs(
-    folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], config: Mapping[str, Any]
+    folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
 ) -> Section:
     views: list[TableView | FigureView] = [_printed_and_found(folder)]
     for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
         views.append(view)
         if view.svg.stem == "fig06":
-            views += [_rates(folder, config), _tests(folder)]
+            views += [_rates(folder, hit_window_s), _tests(folder)]
     views.append(
         FigureView(
             label="",
@@ -179,14 +178,14 @@ def _comparisons(orders: pd.DataFrame, rates: pd.DataFrame) -> Iterator[tuple[st
             )
 
 
-def _rates(folder: Path, config: Mapping[str, Any]) -> TableView:
+def _rates(folder: Path, hit_window_s: float) -> TableView:
     path = folder / "hit_rates.csv"
     frame = read_table(path, "hit_rates")
     here = (frame["dataset"] == "powerlaw") & (frame["signer"] == ALL)
     return TableView(
         label="",
         title="Hit rates on power-law ground truth",
-        caption=f"Window ±{config['binning']['window_s']:g} s, one to one. Chance: Poisson events "
+        caption=f"Window ±{hit_window_s:g} s, one to one. Chance: Poisson events "
         "with as many false positives; an order is informative where its hit rate is above the "
         "97.5 %.",
         frame=frame[here],

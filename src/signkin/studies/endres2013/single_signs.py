@@ -7,7 +7,7 @@ bins. What cannot be used is left out with the reason.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,8 +26,10 @@ from signkin.kinematics.derivatives import speed
 from signkin.powerlaw import GroundTruth, LeftOut, WarpSettings, active_part, warp_to_power_law
 from signkin.recording import Recording
 from signkin.seeds import stream
+from signkin.settings.sections import PowerLaw
 from signkin.stages.ingest import lead
-from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist
+from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist, sample_at
+from signkin.studies.endres2013.settings import CutSettings
 
 Floats = NDArray[np.float64]
 
@@ -38,8 +40,9 @@ RECORDED, POWERLAW = "recorded", "powerlaw"
 class Trajectory:
     """A trajectory in bins, as binning takes it.
 
-    dataset: recorded or powerlaw. x: (T, L) positions at the middle of each bin, in the
-    corpus's unit. bin_s: duration of a bin. boundaries_s: known boundaries, in s from the start.
+    dataset: recorded or powerlaw. x: (T, L) positions, one a bin, in the corpus's unit. bin_s:
+    duration of a bin. boundaries_s: known boundaries, in s from the start. sample_at: where in
+    its bin a position is (`in_bins`).
     """
 
     recording: str
@@ -48,6 +51,7 @@ class Trajectory:
     x: Floats
     bin_s: float
     boundaries_s: Floats
+    sample_at: float = 0.5
 
     @property
     def duration_s(self) -> float:
@@ -88,18 +92,11 @@ class Movement:
 
 
 def single_signs(
-    corpus: Corpus,
-    recordings: Iterable[Recording],
-    settings: Mapping[str, Any],
-    seed: int,
+    corpus: Corpus, recordings: Iterable[Recording], settings: CutSettings, seed: int
 ) -> SingleSigns:
-    """Cut the recordings of a shard into bins, as recorded and with power-law timing.
-
-    settings: the sections `kinematics`, `binning` and `powerlaw` of config.yaml.
-    """
+    """Cut the recordings of a shard into bins, as recorded and with power-law timing."""
     out = SingleSigns()
-    warp = WarpSettings(**settings["powerlaw"])
-    bins = int(settings["binning"]["bins"])
+    bins = settings.bins
     for recording in recordings:
         start = lead(corpus, recording.name)
 
@@ -114,7 +111,7 @@ def single_signs(
                 leave_out(dataset, str(error))
             continue
         out.trajectories.append(trajectory)
-        truth = ground_truth(corpus.name, movement.wrist, warp, seed)
+        truth = ground_truth(corpus.name, movement.wrist, settings.powerlaw, seed)
         if isinstance(truth, LeftOut):
             leave_out(POWERLAW, truth.reason)
         else:
@@ -127,13 +124,12 @@ def single_signs(
     return out
 
 
-def movement_of(recording: Recording, settings: Mapping[str, Any]) -> Movement:
+def movement_of(recording: Recording, settings: CutSettings) -> Movement:
     """Return the movement of the hand that moves more (sections 2.2, 2.4)."""
-    longest_gap_s = settings["kinematics"]["longest_gap_s"]
-    hand = moving_hand(recording, longest_gap_s)
-    wrist = ready_wrist(recording, hand, longest_gap_s, settings["binning"]["lowpass"])
+    hand = moving_hand(recording, settings.longest_gap_s)
+    wrist = ready_wrist(recording, hand, settings.longest_gap_s, settings.lowpass)
     moving = speed(wrist.path, wrist.rate_hz)
-    return Movement(wrist, active_part(moving, settings["powerlaw"]["active_share"]))
+    return Movement(wrist, active_part(moving, settings.powerlaw.active_share))
 
 
 def recorded(movement: Movement, bins: int) -> Trajectory:
@@ -146,23 +142,23 @@ def recorded(movement: Movement, bins: int) -> Trajectory:
             expected="2 or more",
         )
     x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
-    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0))
+    at = sample_at(len(path), len(x))
+    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0), at)
 
 
-def ground_truth(
-    corpus: str, wrist: Wrist, settings: WarpSettings, seed: int
-) -> GroundTruth | LeftOut:
+def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundTruth | LeftOut:
     """Return the recorded path with the timing of random power laws, or why there is none."""
     rng = stream(seed, corpus, wrist.recording, "powerlaw")
     try:
-        return warp_to_power_law(wrist.path, wrist.rate_hz, rng, settings)
+        return warp_to_power_law(wrist.path, wrist.rate_hz, rng, WarpSettings(**dict(law)))
     except SignkinError as error:
         return LeftOut(reason=str(error))
 
 
 def _warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:
     x, bin_s = in_bins(truth.positions, truth.rate_hz, min(bins, len(truth.positions)))
-    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s)
+    at = sample_at(len(truth.positions), len(x))
+    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s, at)
 
 
 def _segments(truth: GroundTruth, unit: str) -> Iterable[dict[str, Any]]:
@@ -189,7 +185,7 @@ def _segments(truth: GroundTruth, unit: str) -> Iterable[dict[str, Any]]:
 
 
 def example_points(
-    corpus: Corpus, recording: Recording, settings: Mapping[str, Any], seed: int
+    corpus: Corpus, recording: Recording, settings: CutSettings, seed: int
 ) -> pd.DataFrame:
     """Return the samples of Fig. 1: path, speed and curvature, as recorded and warped.
 
@@ -197,7 +193,7 @@ def example_points(
     """
     movement = movement_of(recording, settings)
     wrist = movement.wrist
-    truth = ground_truth(corpus.name, wrist, WarpSettings(**settings["powerlaw"]), seed)
+    truth = ground_truth(corpus.name, wrist, settings.powerlaw, seed)
     if isinstance(truth, LeftOut):
         return tables.empty("fig01_powerlaw", corpus.unit)
     path = movement.path
@@ -261,6 +257,7 @@ def write_trajectories(path: str | Path, trajectories: Sequence[Trajectory]) -> 
             "dataset": pa.array([t.dataset for t in trajectories], pa.string()),
             "dimensions": pa.array([t.x.shape[1] for t in trajectories], pa.int32()),
             "bin_s": pa.array([t.bin_s for t in trajectories], pa.float64()),
+            "sample_at": pa.array([t.sample_at for t in trajectories], pa.float64()),
             "x": pa.array([t.x.ravel() for t in trajectories], pa.list_(pa.float64())),
             "boundaries_s": pa.array(
                 [np.asarray(t.boundaries_s) for t in trajectories], pa.list_(pa.float64())
@@ -279,7 +276,7 @@ def read_trajectories(paths: Iterable[str | Path]) -> list[Trajectory]:
             out.append(
                 Trajectory(
                     row["recording"], row["hand"], row["dataset"], x, row["bin_s"],
-                    np.asarray(row["boundaries_s"], dtype=float),
+                    np.asarray(row["boundaries_s"], dtype=float), row["sample_at"],
                 )
             )  # fmt: skip
     return out

@@ -22,6 +22,7 @@ from signkin.binning.hit_rate import (
     hpfpps,
 )
 from signkin.seeds import stream
+from signkin.settings.sections import Binning
 from signkin.studies.endres2013.posteriors import FITTED, FITTED_MAP
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
 
@@ -32,7 +33,7 @@ TESTED_ORDER = 3  # section 3.2: order 3 against the rest
 
 def summaries(
     corpus: str, gathered: Mapping[str, pd.DataFrame], trajectories: Sequence[Trajectory],
-    settings: Mapping[str, Any], seed: int,
+    settings: Binning, seed: int,
 ) -> dict[str, pd.DataFrame]:  # fmt: skip
     """Return the tables order_posteriors, hit_rates, chance_lines and order_tests of a corpus.
 
@@ -114,17 +115,16 @@ def known_boundaries(trajectories: Sequence[Trajectory], fitted: pd.DataFrame) -
 
 
 def chance_of(
-    part: pd.DataFrame, truths: Sequence[Any], durations: Sequence[float],
-    settings: Mapping[str, Any], rng: np.random.Generator,
-) -> ChanceLine:  # fmt: skip
+    truths: Sequence[Any], durations: Sequence[float], settings: Binning, rng: np.random.Generator
+) -> ChanceLine:
     """Return the line of no discrimination of a group."""
-    draws = int(np.clip(round(settings["chance_trajectories"] / len(durations)), 20, 400))
-    return chance_line(truths, durations, rng, RATES_PER_S, settings["window_s"], draws)
+    draws = int(np.clip(round(settings.chance_trajectories / len(durations)), 20, 400))
+    return chance_line(truths, durations, rng, RATES_PER_S, settings.hit_window_s, draws)
 
 
 def hit_rates(
     corpus: str, binning: pd.DataFrame, truths: Truths,
-    settings: Mapping[str, Any], seed: int,
+    settings: Binning, seed: int,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:  # fmt: skip
     """Return the tables `hit_rates` and `chance_lines`.
 
@@ -140,7 +140,7 @@ def hit_rates(
         line = None
         if any(len(times) for times in known):
             rng = stream(seed, corpus, "chance", *name)
-            line = chance_of(part, known, durations, settings, rng)
+            line = chance_of(known, durations, settings, rng)
             chance_rows += [{"corpus": corpus, **key, **row} for row in _line_rows(line)]
         for order, of_order in rates.items():
             rng = stream(seed, corpus, "bootstrap", *name, str(order))
@@ -163,11 +163,11 @@ def _whole(value: Any) -> int | None:
 
 
 def _rate_row(
-    rates: Sequence[HitRate], line: ChanceLine | None, settings: Mapping[str, Any],
+    rates: Sequence[HitRate], line: ChanceLine | None, settings: Binning,
     rng: np.random.Generator,
 ) -> dict[str, Any]:  # fmt: skip
     mean = group_rates(rates)
-    ratio = hpfpps(rates, rng, settings["bootstrap_draws"])
+    ratio = hpfpps(rates, rng, settings.bootstrap_draws)
     finite = {
         name: value if np.isfinite(value) else None
         for name, value in (

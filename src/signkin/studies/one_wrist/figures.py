@@ -20,6 +20,7 @@ from signkin.figures.one_wrist import TAG_HEIGHTS, plot_excerpt
 from signkin.figures.style import WIDTH_IN
 from signkin.joints import HANDS
 from signkin.report.drawn import Drawn
+from signkin.settings.sections import Continuous
 from signkin.studies.one_wrist.analysis import Events
 
 EXCERPT_S = 6.0
@@ -39,19 +40,19 @@ class Excerpt:
 
 def drawn(
     corpus: Corpus, compared: pd.DataFrame, rates: pd.DataFrame, frames: pd.DataFrame,
-    events: Mapping[str, Events], settings: Mapping[str, Any],
+    events: Mapping[str, Events], continuous: Continuous, window_s: float,
 ) -> Drawn:  # fmt: skip
     """Draw both wrists of one recording, and hit rates of all.
 
     compared, rates: from `one_wrist`. frames: kinematics of the recording that is drawn.
-    settings: of the section `binning`, window_s and continuous.
+    continuous, window_s: binning.continuous, binning.hit_window_s.
     """
     last = float(frames["time_s"].max())
     first = max(0.0, min(last / 3, last - EXCERPT_S))
     recording = str(frames["recording"].iloc[0])
     excerpt = Excerpt(recording, (first, min(first + EXCERPT_S, last)), tuple(events))
     data = pd.concat([rates, excerpt_points(corpus, frames, events, excerpt)], ignore_index=True)
-    told = caption(compared, recording, settings)
+    told = caption(compared, recording, continuous, window_s)
     return Drawn(draw(data, excerpt, corpus.unit), data, told)
 
 
@@ -134,9 +135,8 @@ def example_frames(
     return frames[frames["recording"] == longest]
 
 
-def caption(frame: pd.DataFrame, recording: str, settings: Mapping[str, Any]) -> str:
+def caption(frame: pd.DataFrame, recording: str, continuous: Continuous, window_s: float) -> str:
     """Return what the figure says below it. frame: table `one_wrist`."""
-    own = settings["continuous"]
     told = "; ".join(
         f"{row.hand}, {row.found} → {row.truth}: {row.hit_rate:.2f} "
         f"(chance {row.chance_low:.2f} to {row.chance_high:.2f})"
@@ -145,7 +145,8 @@ def caption(frame: pd.DataFrame, recording: str, settings: Mapping[str, Any]) ->
     )
     return (
         f"Top: {EXCERPT_S:g} s of recording {recording}. Below: share of tags or minima that are "
-        f"hit within ±{settings['window_s']:g} s, one to one, against events that hit nothing; "
-        f"binning with order {own['order']}, bins of {own['bin_s']:g} s or a frame, segments up "
-        f"to {own['longest_segment_s']:g} s. Dashed: as many Poisson events (grey: 95 %). {told}."
+        f"hit within ±{window_s:g} s, one to one, against events that hit nothing; "
+        f"binning with order {continuous.order}, bins of {continuous.bin_s:g} s or a frame, "
+        f"segments up to {continuous.longest_segment_s:g} s. Dashed: as many Poisson events (grey: "
+        f"95 %). {told}."
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,6 +14,7 @@ from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 from signkin.io.store import read_recordings
 from signkin.studies.endres2013.posteriors import read_posteriors
+from signkin.studies.endres2013.settings import CutSettings
 from signkin.studies.endres2013.single_signs import (
     POWERLAW,
     RECORDED,
@@ -64,7 +64,7 @@ class Sources:
 
 def read_sources(
     corpus: Corpus, frames: Mapping[str, pd.DataFrame], shards: Mapping[str, Sequence[str]],
-    settings: Mapping[str, Any], seed: int,
+    settings: CutSettings, seed: int,
 ) -> Sources:  # fmt: skip
     """Return what is drawn of a corpus.
 
