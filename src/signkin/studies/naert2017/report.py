@@ -16,8 +16,8 @@ from signkin.exhibits import Exhibit, exhibits
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.studies.naert2017.durations_report import duration_views
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.synthesis import report as synthesis_report
 from signkin.tables import read_table
 
@@ -110,8 +110,8 @@ def _views(source: Source) -> Iterator[View]:
 def _durations(source: Source, exhibit: Exhibit) -> Iterator[View]:
     told = {"label": exhibit.label, "title": exhibit.title, "differs": exhibit.differs}
     simulated = source.corpus.simulator is not None
-    config = legacy(source.shown.settings)
-    yield from duration_views(source.folder, config, source.shown.constants, told, simulated)
+    chosen = DurationSettings.of(source.shown.settings)
+    yield from duration_views(source.folder, chosen, source.shown.constants, told, simulated)
 
 
 def _unused_glosses(source: Source) -> list[str]:
