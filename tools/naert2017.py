@@ -5,18 +5,16 @@ python -m tools.numbers RESULTS DATA naert2017
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from signkin.coarticulation.transitions import with_normalised
 from signkin.corpus import Corpus, load_corpus
-from signkin.settings import Settings, load_settings
+from signkin.settings import Settings
 from signkin.stages.ingest import Ingested, ingest
 from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
@@ -26,6 +24,7 @@ from signkin.studies.naert2017.refinement import boundaries, refinement
 from signkin.studies.naert2017.settings import TransitionSettings
 from signkin.studies.naert2017.transitions import counted, transitions
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 CHOICES: dict[str, dict[str, Any]] = {
@@ -44,18 +43,6 @@ CHOICES: dict[str, dict[str, Any]] = {
 }
 SHIPPED = "as shipped"
 Measures = Mapping[str, str]
-
-
-def changed(config: dict[str, Any], choice: dict[str, Any]) -> dict[str, Any]:
-    """Return the configuration with some keys changed."""
-    out = copy.deepcopy(config)
-    for path, value in choice.items():
-        *parents, key = path.split(".")
-        place = out
-        for parent in parents:
-            place = place[parent]
-        place[key] = value
-    return out
 
 
 def measures(
@@ -105,13 +92,12 @@ def of_corpus(
     name: str, folder: Path, choices: Mapping[str, dict[str, Any]]
 ) -> dict[str, dict[str, str]]:
     """Return the measures of a corpus under each choice. folder: its recordings."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
     corpus = load_corpus(ROOT / "corpora" / name)
     read = ingest(corpus, folder, corpus.entries)
     simulated = folder if corpus.simulator else None
     recorded = corpus.settings["motion"]["orientations"] == "recorded"
     return {
-        choice: measures(corpus, read, load_settings(changed(config, keys)), simulated)
+        choice: measures(corpus, read, shipped(keys), simulated)
         for choice, keys in choices.items()
         if recorded or "parent" not in choice
     }

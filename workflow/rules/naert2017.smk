@@ -74,6 +74,7 @@ rule naert_tables:
         table1="<results>/naert2017/{corpus}/table1.csv",
         table2="<results>/naert2017/{corpus}/table2.csv",
         refinement="<results>/naert2017/{corpus}/refinement.csv",
+        tag_chance="<results>/naert2017/{corpus}/tag_chance.csv",
         quality=multiext("<results>/naert2017/{corpus}/fig_refinement", ".svg", ".pdf"),
     log:
         "<logs>/naert2017/{corpus}/tables.log",

@@ -14,6 +14,7 @@ with job(snakemake):
     from signkin.studies.naert2017.refinement import refinement
     from signkin.studies.naert2017.table1 import table1
     from signkin.studies.naert2017.table2 import table2
+    from signkin.studies.naert2017.tag_chance import tag_chance
     from signkin.studies.naert2017.transitions import left_out
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
@@ -31,6 +32,10 @@ with job(snakemake):
     quality, chance = refinement(
         corpus, about, intervals, minima, boundaries, settings.refinement, snakemake.params.seed
     )
+    tagged = dict.fromkeys(boundaries["recording"])
+    near = tag_chance(
+        corpus, about, intervals, minima, tagged, settings.refinement, snakemake.params.seed
+    )
     made = {
         "boundaries": ("boundaries", boundaries),
         "sign_types": ("sign_types", sign_types),
@@ -40,6 +45,7 @@ with job(snakemake):
         "table1": ("table1", table1(corpus, intervals, sign_types)),
         "table2": ("table2", table2(corpus.name, moves, published, settings.transitions)),
         "refinement": ("refinement", quality),
+        "tag_chance": ("tag_chance", near),
     }
     for name, (kind, table) in made.items():
         tables.write_table(table, out[name], kind, unit)

@@ -21,6 +21,7 @@ from signkin.coarticulation.duration import (
     SurfaceDuration,
     Transitions,
     predict_left_out,
+    simple_weight,
 )
 from signkin.errors import SignkinError
 from signkin.statistics import association
@@ -28,6 +29,7 @@ from signkin.statistics.findings import joined
 from signkin.studies.naert2017.transitions import counted
 
 MODELS = ("MEAN", "SIMPLE", "SIMPLE_BOUNDED", "LINEAR", "SURFACE", "SURFACE_PRINTED")
+ONE_DISTANCE = "no geodesic distance: its Euclidean part alone"
 NOTHING_LEARNT = "nothing is learnt: the same in every evaluation"
 
 
@@ -45,6 +47,11 @@ class Learnable:
     unit: str
     note: str
     absent: Mapping[str, str]
+
+    @property
+    def geodesic(self) -> bool:
+        """Whether the corpus has a geodesic distance."""
+        return bool(np.isfinite(self.data.geodesic).any())
 
     @property
     def unit_in_words(self) -> str:
@@ -83,11 +90,8 @@ def learnable(
         )  # fmt: skip
     else:
         reason = "no orientations, so no geodesic distance"
-        absent |= dict.fromkeys(("SIMPLE", "SIMPLE_BOUNDED", "SURFACE", "SURFACE_PRINTED"), reason)
-        if settings["durations"]["simple_alpha"] == 1:
-            for model in ("SIMPLE", "SIMPLE_BOUNDED"):
-                del absent[model]
-            usable["a sign without speed"] = data.linear_speed.sum(axis=1) > 0
+        absent |= dict.fromkeys(("SURFACE", "SURFACE_PRINTED"), reason)
+        usable["a sign without speed"] = data.linear_speed.sum(axis=1) > 0
     if unit != "m":
         absent["SURFACE_PRINTED"] = "distances in px, theta in metres"
     kept = np.logical_and.reduce(list(usable.values()))
@@ -98,11 +102,14 @@ def learnable(
 
 
 def makers(
-    settings: Mapping[str, Any], constants: Mapping[str, str]
+    settings: Mapping[str, Any], constants: Mapping[str, str], geodesic: bool
 ) -> dict[str, Callable[[], DurationModel]]:
-    """Return how each model is made. constants: numbers printed in the paper, as strings."""
+    """Return how each model is made. constants: numbers printed in the paper, as strings.
+
+    geodesic: whether the corpus has this distance.
+    """
     chosen = settings["durations"]
-    alpha = chosen["simple_alpha"]
+    alpha = simple_weight(chosen["simple_alpha"], geodesic)
     bounds = {"low_s": chosen["lowest_s"], "high_s": chosen["highest_s"]}
     printed = np.array([float(constants[f"theta_{term}"]) for term in TERMS])
     return {
@@ -132,7 +139,7 @@ def models(
         "leave_one_out": list(range(len(learn.data))),
         "leave_one_recording_out": recordings,
     }
-    for name, make in makers(settings, constants).items():
+    for name, make in makers(settings, constants, learn.geodesic).items():
         for evaluation, members in groups.items():
             lead: dict[str, Any] = {"corpus": corpus, "model": name, "evaluation": evaluation}
             lead["n"] = len(learn.data)
@@ -152,6 +159,8 @@ def models(
             note = learn.note
             if name.startswith("SIMPLE") or name == "SURFACE_PRINTED":
                 note = joined(NOTHING_LEARNT, note)
+            if name.startswith("SIMPLE") and not learn.geodesic:
+                note = joined(note, ONE_DISTANCE)
             if name == "MEAN":
                 baseline[evaluation] = np.abs(found - learn.data.duration_s)
             # One stream for all: models are compared on the same draws.
@@ -178,10 +187,11 @@ def _errors(
 ) -> dict[str, float]:
     residual = found - learn.data.duration_s
     units, _ = association.resampled_units(recordings, chosen["bootstrap_recordings"])
-    absolute = np.abs(residual)
+    absolute, too_long = np.abs(residual), _too_long(residual)
+    parts = (absolute, baseline - absolute, residual, too_long)
 
     def means(rows: np.ndarray) -> np.ndarray:
-        return np.array([absolute[rows].mean(), (baseline - absolute)[rows].mean()])
+        return np.array([part[rows].mean() for part in parts])
 
     low, high = association.bootstrap(means, units, chosen["draws"], chosen["alpha"], rng)
     measured = {
@@ -193,11 +203,21 @@ def _errors(
         "gain_high_s": high[1],
         "rmse_s": np.sqrt(np.mean(residual**2)),
         "bias_s": residual.mean(),
+        "bias_low_s": low[2],
+        "bias_high_s": high[2],
+        "share_too_long": too_long.mean(),
+        "share_too_long_low": low[3],
+        "share_too_long_high": high[3],
         "longest_s": found.max(),
         "share_above_bound": (found > chosen["highest_s"] + 1e-12).mean(),
     }
     # A bias of least squares is 0 but for rounding.
     return {name: round(float(value), 12) for name, value in measured.items()}
+
+
+def _too_long(residual: np.ndarray) -> np.ndarray:
+    """Return 1 for a prediction that is too long, 0 for one too short, 0.5 for an exact one."""
+    return 0.5 + 0.5 * np.sign(np.round(residual, 12))
 
 
 def _predictions(rows: pd.DataFrame, name: str, found: np.ndarray) -> pd.DataFrame:

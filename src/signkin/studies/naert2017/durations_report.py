@@ -61,6 +61,7 @@ STATISTICS_COLUMNS = {
     "comparison": ("of", ""),
     "tested": ("statistic", ""),
     "p": ("p", ".2g"),
+    "p_holm": ("p (Holm)", ".2g"),
     "sized": ("effect [interval]", ""),
     "n": ("n", "d"),
     "powered": ("power", ""),
@@ -100,7 +101,9 @@ def _words(path: Path, words: pd.DataFrame, chosen: Mapping[str, Any], warning: 
         "duration, and gives no test. That is no evidence of no effect, so equivalence is tested "
         f"too: two means count as the same within ± {chosen['equivalence_s']:g} s (a choice, see "
         "docs/interpretations.md). By Welch's ANOVA (type, change of hands) and type II sums of "
-        f"squares (two factors), level {chosen['alpha']:g}, not corrected over questions. "
+        f"squares (two factors), level {chosen['alpha']:g}, corrected by Holm for all deciding "
+        "tests of a corpus: all ask whether the types of signs matter. Symmetry is that of "
+        "two-handed signs only. "
         f"Transitions between manual tags, whole body, overlapping signs left out.{warning}",
         frame=words,
         columns={
@@ -129,8 +132,8 @@ def _tests(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: s
         f"missing.{warning}",
         frame=rows,
         columns=_columns(
-            "question", "outliers", "test", "comparison", "tested", "p", "sized", "n", "powered",
-            "note",
+            "question", "outliers", "test", "comparison", "tested", "p", "p_holm", "sized", "n",
+            "powered", "note",
         ),
         file=path,
         most=12,
@@ -162,7 +165,7 @@ def _distance(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning
         f"share of transitions in the diamond of Fig. 8.{warning}",
         frame=rows,
         columns=_columns(
-            "test", "comparison", "effect", "effect_low", "effect_high", "p", "n", "note"
+            "test", "comparison", "effect", "effect_low", "effect_high", "p", "p_holm", "n", "note"
         ),
         file=path,
         most=12,
@@ -221,6 +224,9 @@ def _models(
             "gain_high_s": ("high", "+.4f"),
             "rmse_s": ("RMSE (s)", ".4f"),
             "bias_s": ("bias (s)", "+.4f"),
+            "bias_low_s": ("low", "+.4f"),
+            "bias_high_s": ("high", "+.4f"),
+            "share_too_long": ("too long", ".0%"),
             "share_above_bound": (f"above {chosen['highest_s']:g} s", ".0%"),
             "note": ("note", ""),
         },
