@@ -2,6 +2,10 @@
 # make DATA=folder   the same with the real recordings of a folder (or set SIGNKIN_DATA)
 # make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
 # make test          set up and pass the tests
+# make lint          its first half: style, types, import contracts
+# make coverage      which lines the unit tests run: a table, and build/coverage/index.html
+# make docs          the pages of docs/ and the API as a site: build/docs/index.html
+# make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
@@ -15,7 +19,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: settings all utterance test lint unit bench lock bench-lock clean
+.PHONY: all utterance test lint unit coverage docs numbers settings bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -32,11 +36,14 @@ $(VENV)/ready: requirements.lock pyproject.toml
 	$(PIP) --no-deps --no-build-isolation --editable .
 	@touch $@
 
+# What the linters read; .pre-commit-config.yaml has the same tools.
+CODE := src workflow/scripts tests tools examples docs benchmarks
+
 test: lint unit
 
 lint: $(VENV)/ready
-	$(BIN)/ruff check src workflow/scripts tests docs benchmarks
-	$(BIN)/ruff format --check src workflow/scripts tests docs benchmarks
+	$(BIN)/ruff check $(CODE)
+	$(BIN)/ruff format --check $(CODE)
 	$(BIN)/snakefmt --check Snakefile workflow/rules
 	$(BIN)/mypy src
 	$(BIN)/lint-imports
@@ -44,6 +51,19 @@ lint: $(VENV)/ready
 unit: $(VENV)/ready
 	.ci/chromium
 	$(BIN)/pytest -n 2 --dist loadfile $(ARGS)
+
+# Apart from `make test`, which it would slow by a third. What runs compiled, and the scripts that
+# Snakemake starts, are not seen.
+coverage: $(VENV)/ready
+	$(BIN)/pytest -n 2 --dist loadfile tests/unit tests/oracle --quiet \
+	  --cov --cov-report=term --cov-report=html $(ARGS)
+
+docs: $(VENV)/ready
+	$(BIN)/sphinx-build -q -W --keep-going docs build/docs
+	@echo "The site: build/docs/index.html"
+
+numbers: $(VENV)/ready
+	$(BIN)/python -m tools.numbers results '$(SIGNKIN_DATA)' $(ARGS)
 
 # PyTorch, which one peer wants, is no part of the lock: see benchmarks/README.md.
 TORCH ?= torch==2.13.0
@@ -72,5 +92,5 @@ lock:
 	  --quiet pyproject.toml -o requirements.lock
 
 clean:
-	rm -rf .snakemake logs
+	rm -rf .snakemake logs build
 	find results -mindepth 1 -maxdepth 1 ! -name README.md -exec rm -rf {} +

@@ -29,6 +29,7 @@ import pandas as pd  # noqa: E402
 from benchmarks import cubic_cost  # noqa: E402
 from benchmarks.methods import METHODS, Method  # noqa: E402
 from benchmarks.trajectories import BIN_S, NOISE_SD, Trajectory, score, simulate  # noqa: E402
+from signkin.binning.compiled import forget_stale_kernels  # noqa: E402
 
 SEED = 20131107
 # T, segments, trajectories.
@@ -188,6 +189,7 @@ def main() -> None:
     parser.add_argument("--sizes", type=int, nargs="+", default=list(SIZES), choices=list(SIZES))
     parser.add_argument("--repeats", type=int, help="trajectories a size, instead of 50, 7 and 5")
     options = parser.parse_args()
+    forget_stale_kernels()
     rng = np.random.default_rng(SEED)
     differs = cubic_cost.check(simulate(rng, 100, 3).x, NOISE_SD)
     if differs > 1e-6:

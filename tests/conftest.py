@@ -7,11 +7,23 @@ import os
 import shutil
 from pathlib import Path
 
+import hypothesis
 import pytest
 
+from signkin.binning.compiled import forget_stale_kernels
 from support.runs import Run, checked, prepare, run
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# How long an example takes is the machine's business: a busy one, or coverage, is no failure.
+hypothesis.settings.register_profile("signkin", deadline=None)
+hypothesis.settings.load_profile("signkin")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernels_of_these_sources() -> None:
+    """Forget machine code of older sources, which numba would go on with."""
+    forget_stale_kernels()
 
 
 @pytest.fixture(scope="session")

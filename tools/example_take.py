@@ -12,40 +12,20 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from signkin import seeds
 from signkin.annotation import Interval
-from signkin.corpus import load_corpus
 from signkin.io.bvh import Hierarchy, write_bvh
 from signkin.io.eaf import write_eaf
 from signkin.simulate import lsf
 from signkin.simulate.body import Body
+from tools.simulated import simulate_lsf
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT / "examples" / "data"
-SEED = 20170709
 SIGNS = 6  # of the utterance, at most
 STEP = 2  # every second frame of 100 Hz
 MARGIN_S = 0.3
 FINGERS = re.compile(r"(Thumb|Index|Middle|Ring|Pinky)\d|_end$")
-
-
-def simulated() -> lsf.SimulatedRecording:
-    """Simulate the corpus from the printed tables, and return its first recording."""
-    text = {"dtype": str, "keep_default_na": False}
-    printed = ROOT / "papers" / "naert2017"
-    constants = pd.read_csv(printed / "constants.csv", **text).set_index("name")["value"]
-    corpus = load_corpus(ROOT / "corpora" / "lsf-sim")
-    return lsf.simulate(
-        names=[entry.recording for entry in corpus.entries],
-        lexicon=corpus.lexicon,
-        table2=pd.read_csv(printed / "table2.csv", **text),
-        theta=np.array([float(constants[f"theta_{t}"]) for t in lsf.TERMS]),
-        mean_error_s=float(constants["mean_error"]),
-        euclidean_unit_m=0.1,
-        rng=seeds.stream(SEED, corpus.name),
-    ).recordings[0]
 
 
 def without_fingers(whole: Hierarchy) -> tuple[Hierarchy, list[int]]:
@@ -65,7 +45,7 @@ def without_fingers(whole: Hierarchy) -> tuple[Hierarchy, list[int]]:
 
 def main() -> None:
     """Write the two files."""
-    recording = simulated()
+    recording = simulate_lsf().recordings[0]
     tokens = recording.utterances[0][:SIGNS]
     rate = lsf.RATE_HZ
     first = max(0, tokens[0].start - round(MARGIN_S * rate))

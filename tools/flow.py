@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import tomllib
 from pathlib import Path
 
@@ -16,7 +15,7 @@ PLACE = "flow"
 OPEN = ("studies",)
 PARTS = (
     "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics",
-    "figures", "report", "audit", "stages", "studies", "pages", "corpus",
+    "figures", "report", "audit", "stages", "studies", "pages", "corpus", "survey",
 )  # fmt: skip
 
 
@@ -104,4 +103,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,5 +1,9 @@
-"""The command line: `signkin run` runs the workflow of the folder it is called in, `signkin
-utterance` makes an utterance from a list of glosses, `signkin audit` checks a ledger of claims."""
+"""The command line.
+
+`signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
+utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
+at corpora before a run.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,8 @@ import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+
+from signkin.survey.commands import add_parser, run_corpus
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -28,6 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
     ledger.add_argument("--out", type=Path, help="write the verdicts to this CSV file")
     ledger.add_argument("--checks", type=Path, help="write every check's findings to this one")
     ledger.add_argument("--results", type=Path, help="test on the corpora of this folder, too")
+    add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
@@ -35,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
     if told.command == "audit":
         return run_audit(told.papers, told.out, told.checks, told.results)
-    return say(told)
+    return run_corpus(told) if told.command == "corpus" else say(told)
 
 
 def say(told: argparse.Namespace) -> int:
@@ -88,6 +95,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with the process, so a killed run can simply go on.
     """
+    from signkin.binning.compiled import forget_stale_kernels
     from signkin.checkout import workflow_home
     from signkin.errors import SignkinError
     from signkin.lock import held
@@ -112,6 +120,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         if not alone:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
+        forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.

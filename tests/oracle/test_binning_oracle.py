@@ -14,7 +14,7 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_t
 
 from signkin.binning import Prior, fit, segment_log_evidence
-from signkin.binning.posterior import _log_prior
+from signkin.binning.segmentation_prior import log_prior_of
 from support.binning_model import (
     Model,
     enumerate_all,
@@ -152,7 +152,7 @@ def test_the_trajectory_of_the_best_segmentation_is_a_ridge_fit_a_segment():
 
 @pytest.mark.parametrize(("bins", "longest"), [(8, 8), (9, 3), (10, 4), (7, 1), (6, 5)])
 def test_the_prior_over_segmentations_sums_to_one(bins, longest):
-    log_prior = _log_prior(bins, longest)
+    log_prior = log_prior_of(bins, longest)
     for count in range(bins):
         number = sum(1 for _ in segmentations(bins, count, longest))
         if number:
@@ -169,7 +169,7 @@ def test_the_prior_over_segmentations_sums_to_one(bins, longest):
 @pytest.mark.parametrize(("bins", "longest"), [(300, 7), (650, 9), (650, 200)])
 def test_numbers_of_segmentations_of_long_series_are_exact(bins, longest):
     """Whole numbers of any size: coefficients of (z + ... + z^W)^(M+1)."""
-    log_prior = _log_prior(bins, longest)
+    log_prior = log_prior_of(bins, longest)
     ways = [1] + [0] * bins
     for count in range(bins):
         sums = [0]

@@ -302,6 +302,60 @@ def test_expectations_that_were_not_asked_for_are_told():
     assert found.log_evidence.tolist() == whole.log_evidence.tolist()
 
 
+def test_a_boundary_is_halfway_between_two_samples():
+    x = np.repeat([[0.0, 0.0], [40.0, 9.0], [-30.0, 2.0]], [7, 9, 8], axis=0)
+    x += np.random.default_rng(1).normal(0, 0.5, x.shape)
+    middle, frames = (fit(x, (0,), PRIOR, 0.04, sample_at=at) for at in (0.5, 0.0))
+    assert middle.boundaries(0).tolist() == frames.boundaries(0).tolist() == [6, 15]
+    # Bins of 40 ms with samples in their middle: the bins' ends. Frames at i / 25 s: frames 6 and
+    # 7 stand at 0.24 and 0.28 s.
+    assert middle.boundaries_s(0).tolist() == [7 * 0.04, 16 * 0.04]
+    assert frames.boundaries_s(0) == pytest.approx([0.26, 0.62])
+    assert frames.times_s([6]) == pytest.approx([0.26])
+    with pytest.raises(SignkinError, match="duration of a bin"):
+        fit(x, (0,), PRIOR).boundaries_s(0)
+    each = fit_many([x, x], (0,), PRIOR, 0.04, sample_at=[0.5, 0.0])
+    assert [f.sample_at for f in each] == [0.5, 0.0]
+    assert each[1].boundaries_s(0).tolist() == frames.boundaries_s(0).tolist()
+
+
+def test_the_least_possible_number_of_boundaries_is_told():
+    x = np.zeros((40, 2))
+    capped, free = fit(x, (0, 1), PRIOR, max_segment_bins=10), fit(x, (0, 1), PRIOR)
+    assert capped.least_count == 3 and capped.map_count(1) == 3 and capped.at_floor(1)
+    assert free.least_count == 0 and free.map_count(1) == 0 and not free.at_floor(1)
+    jumping = fit(np.repeat(walk(10, 2, 1, 50.0), 4, axis=0), (0,), PRIOR, max_segment_bins=10)
+    assert jumping.map_count(0) > 3 and not jumping.at_floor(0)
+
+
+@pytest.mark.parametrize(("told", "low", "high"), [(0.5, 0.8, 1.2), (0.01, 40, 60), (50, 0, 0.05)])
+def test_noise_that_does_not_fit_shows(told, low, high):
+    """A smooth path with noise of 0.5, of which no polynomial of order 1 follows all."""
+    t = np.linspace(0, 3, 120)[:, None]
+    x = np.hstack([t, -t]) + np.random.default_rng(3).normal(0, 0.5, (120, 2))
+    found = fit(x - x.mean(0), (1,), Prior(noise_sd=told), max_count=3)
+    assert low < found.noise_misfit(1) < high
+
+
+def test_a_posterior_tells_of_itself_in_three_lines():
+    x = np.repeat([[0.0, 0.0], [40.0, 9.0]], [12, 18], axis=0)
+    told = repr(fit(x, (0, 2), PRIOR, max_segment_bins=20)).splitlines()
+    assert len(told) == 3 and "30 bins in 2 dimensions, orders 0, 2" in told[0]
+    assert "preferred order 0" in told[1] and "1 boundaries, the least possible" in told[2]
+
+
+def test_arrays_that_mask_nothing_are_arrays_and_lists_of_noise_are_tuples():
+    same(fit(np.ma.asarray(GOOD), (0, 2), PRIOR), fit(GOOD, (0, 2), PRIOR), rel=0, abs=0)
+    assert Prior(noise_sd=[1.0, 2.0]) == Prior(noise_sd=(1.0, 2.0))  # type: ignore[arg-type]
+    assert hash(Prior(noise_sd=np.array([1.0]))) == hash(Prior(noise_sd=(1.0,)))
+
+
+@pytest.mark.parametrize("given", [{"prior": 0.001}, {"prior": [PRIOR]}, {"names": "ab c"}])
+def test_what_is_given_for_many_is_one_or_as_many(given):
+    with pytest.raises(SignkinError):
+        fit_many([GOOD, GOOD], (0,), **{"prior": PRIOR, **given})
+
+
 # --- bad input
 
 
@@ -327,6 +381,16 @@ BAD = {
     "an order too high": (GOOD, {"orders": (10,)}, "0 to 9"),
     "no segment": (GOOD, {"max_segment_bins": 0}, "max_segment_bins"),
     "no prior": (GOOD, {"prior": None}, "prior"),
+    "a number as prior": (GOOD, {"prior": 0.001}, "the prior is 0.001"),
+    "a number as orders": (GOOD, {"orders": 3}, "the orders are 3"),
+    "words as orders": (GOOD, {"orders": "cubic"}, "the orders are 'cubic'"),
+    "a word as count": (GOOD, {"max_count": "all"}, "max_count is 'all'"),
+    "a word as longest segment": (GOOD, {"max_segment_bins": "long"}, "whole number from 1"),
+    "a duration of nothing": (GOOD, {"dt_s": 0.0}, "dt_s is 0.0"),
+    "a word as duration": (GOOD, {"dt_s": "15 ms"}, "dt_s is '15 ms'"),
+    "a masked value": (np.ma.masked_equal(GOOD, GOOD[7, 1]), {}, "bin 7"),
+    "words as data": (["a", "b"], {"orders": (0,)}, "not an array of numbers"),
+    "a list of one speed": ([1.5], {"orders": (0,)}, "2 bins or more"),
 }
 
 
@@ -346,6 +410,11 @@ def test_bad_input_is_told_with_the_name_of_the_trajectory(case):
         ({"noise_sd": float("nan")}, "noise_sd"),
         ({"noise_sd": (1.0, 0.0, 1.0)}, "noise_sd"),
         ({"noise_sd": 1.0, "concentration": 0.0}, "concentration"),
+        ({"noise_sd": "0.8 mm"}, "noise_sd is '0.8 mm'"),
+        ({"noise_sd": None}, "noise_sd"),
+        ({"noise_sd": []}, "noise_sd"),
+        ({"noise_sd": 1.0, "concentration": "small"}, "concentration is 'small'"),
+        ({"noise_sd": 1.0, "dof": "L"}, "dof is 'L'"),
         ({"noise_sd": 1.0, "time_unit": "frame"}, "bin, second, trajectory"),
         ({"noise_sd": 1.0, "scale": "printed"}, "expected, plain"),
     ],

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from numba import njit
 
 from signkin.binning import lanes
+from signkin.binning.jit import helper, kernel
 from signkin.binning.lanes import (
     any_above,
     exp_in_place,
@@ -25,7 +25,7 @@ A = np.array([1.5, -2.0, 0.0, 1e300, -1e-300, np.inf, 3.0, 7.25])
 B = np.array([0.5, 4.0, -1.0, 2.0, 3.0, 1.0, 3.0, -0.125])
 
 
-@njit
+@kernel  # no division by zero or overflow is an error
 def arithmetic(a, b, out):
     x, y = load(a, (0,)), load(b, (0,))
     store(out, (0, 0), x + y)
@@ -47,7 +47,7 @@ def test_signs_work_on_each_lane():
     np.testing.assert_array_equal(out, expected)
 
 
-@njit
+@helper
 def of_all(a, limit):
     return total(load(a, (0,))), any_above(load(a, (0,)), splat(limit))
 
@@ -62,7 +62,7 @@ def test_lanes_are_added_by_halves_and_compared():
     assert not of_all(np.full(8, np.nan), 0.0)[1]
 
 
-@njit
+@helper
 def turn(source, target):
     transpose(source, (8, 0), target, (1, 0, 0))
 
@@ -73,7 +73,7 @@ def test_rows_become_columns():
     np.testing.assert_array_equal(target, [np.zeros((8, 8)), source[8:].T])
 
 
-@njit
+@helper
 def logs(values):
     for i in range(0, len(values), 8):
         store(values, (i,), log(load(values, (i,))))
@@ -103,7 +103,7 @@ def test_exponentials_are_those_of_the_library_to_a_bit_and_end_at_zero():
 
 
 @pytest.mark.parametrize("size", [1, 7, 64, 1001])
-@pytest.mark.parametrize("make", [lanes.aligned, lanes.aligned.py_func])
+@pytest.mark.parametrize("make", [lanes.aligned, lanes.new_aligned])
 def test_arrays_start_on_a_line_of_the_cache(make, size):
     assert make(size).shape == (size,)
     assert make(size).ctypes.data % 64 == 0

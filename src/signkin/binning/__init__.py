@@ -1,5 +1,6 @@
 """Bayesian binning of trajectories with polynomial segments (Endres et al. 2013)."""
 
+from signkin.binning.fitting import fit, fit_many, segment_log_evidence
 from signkin.binning.hit_rate import (
     ChanceLine,
     GroupRates,
@@ -14,7 +15,7 @@ from signkin.binning.hit_rate import (
     hpfpps,
     match,
 )
-from signkin.binning.posterior import Posterior, fit, fit_many, segment_log_evidence
+from signkin.binning.posterior import Posterior
 from signkin.binning.prior import Prior
 
 __all__ = [

@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from signkin.binning.counts import UNDERFLOW, price_of_boundary
+from signkin.binning.jit import kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -25,13 +26,13 @@ from signkin.binning.lanes import (
     where_above,
 )
 from signkin.binning.log_domain import NEGLIGIBLE
-from signkin.binning.sum_product import SLOW, UNDERFLOW, price_of_boundary
+from signkin.binning.sum_product import SLOW
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def best_path(evidence: F, penalty: float, best: F) -> int:
     """Fill best[p], the largest sum of (log evidence - penalty) over segmentations of p bins.
 
@@ -59,7 +60,7 @@ def best_path(evidence: F, penalty: float, best: F) -> int:
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def segments_to_go(evidence: F, penalty: float, best: F, out: I) -> None:
     """Fill out[p] with the number of segments of the best path that end behind bin p - 1."""
     bins, longest = evidence.shape
@@ -76,7 +77,7 @@ def segments_to_go(evidence: F, penalty: float, best: F, out: I) -> None:
                 break
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def scaled_evidence(evidence: F, penalty: float, best: F, out: F) -> None:
     """Fill out[p, n - 1] with exp(evidence - penalty) in units of the best path: at most 1."""
     bins, longest = evidence.shape
@@ -92,7 +93,7 @@ def scaled_evidence(evidence: F, penalty: float, best: F, out: F) -> None:
             target[n] = values[n]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def ways_on(weight: F, offset: I, ways: F) -> None:
     """Fill ways[p, WIDTH + k - offset[p]] with the sum over ways to cut bins p.. into k segments.
 
@@ -116,13 +117,13 @@ def ways_on(weight: F, offset: I, ways: F) -> None:
             store(ways, (p, at), where_above(sum_, splat(SLOW), sum_, splat(0.0)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def columns_for(most: int) -> int:
     """Return the columns that `ways_on` wants to keep sums of 0 to `most` segments."""
     return WIDTH * (most // WIDTH + 3)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def all_ways(weight: F) -> float:
     """Return the sum over all segmentations, of whatever number of segments."""
     bins, longest = weight.shape
@@ -137,7 +138,7 @@ def all_ways(weight: F) -> float:
     return sums[0]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def log_all_ways(evidence: F, penalty: float, best: F, weight: F) -> float:
     """Return the log of the sum over all segmentations, each segment paying the penalty."""
     best_path(evidence, penalty, best)
@@ -145,7 +146,7 @@ def log_all_ways(evidence: F, penalty: float, best: F, weight: F) -> float:
     return best[len(best) - 1] + math.log(all_ways(weight))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def counts_in_band(
     evidence: F, log_prior: F, half_width: int, log_by_count: F, weight: F, best: F, offset: I,
     ways: F,
@@ -184,7 +185,7 @@ def counts_in_band(
     return max(0.0, 1.0 - kept / all_ways(weight)), penalty
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def posterior_of_order(
     log_by_count: F, weight: F, offset: I, ways: F, before: F, probability: F, boundary: F,
     segments: F,
@@ -250,7 +251,7 @@ def posterior_of_order(
     return top + math.log(mass), lost
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def fit_order_in_band(
     evidence: F, log_prior: F, half_width: int, log_by_count: F, probability: F, boundary: F
 ) -> tuple[float, float, float, float]:

@@ -11,10 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import friedmanchisquare, kruskal, rankdata
 
+from signkin.binning.jit import kernel
 from signkin.errors import SignkinError
 
 Floats = NDArray[np.float64]
@@ -49,7 +48,7 @@ def match(
     return by_p[p], by_t[t]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _pairs(p: Floats, t: Floats, most: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the best order-keeping pairing of two sorted arrays."""
     n, m = len(p), len(t)
@@ -80,7 +79,7 @@ def _pairs(p: Floats, t: Floats, most: float) -> tuple[NDArray[np.int64], NDArra
     return first, second
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _hits(
     times: Floats, events: NDArray[np.int64], truth: Floats, true: NDArray[np.int64], most: float
 ) -> NDArray[np.int64]:
@@ -341,6 +340,8 @@ def _median(values: Floats) -> float:
 
 
 def _kruskal(question: str, groups: list[Floats]) -> RankTest:
+    from scipy.stats import kruskal, rankdata  # takes three times as long to import as numba
+
     name, df = "Kruskal-Wallis", len(groups) - 1
     values = np.concatenate(groups)
     n = len(values)
@@ -355,6 +356,8 @@ def _kruskal(question: str, groups: list[Floats]) -> RankTest:
 
 
 def _friedman(question: str, table: Floats) -> RankTest:
+    from scipy.stats import friedmanchisquare, rankdata
+
     name, (n, orders) = "Friedman", table.shape
     if orders < 3 or n < 2:
         return _untested(name, question, orders - 1, n, "fewer than 3 orders or 2 trajectories")

@@ -1,236 +1,88 @@
-"""Eight numbers at a time, for compiled kernels: a type, its arithmetic, and what it lives in.
+"""Eight numbers at a time, for compiled kernels: their arithmetic, and what they live in.
 
-Inside of a compiled function a value of type Lanes holds eight numbers, and +, -, *, / work on
-each. `load` and `store` move them from and to arrays. A compiler that is left to find such
-groups by itself finds them here and there; this says where they are. What each lane comes to
-does not depend on how wide a machine's vectors are: no sum is reordered, none is fused.
+Inside of a kernel a value of type Lanes holds eight numbers, and +, -, *, / work on each. `load`
+and `store` move them from and to arrays. A compiler that is left to find such groups by itself
+finds them here and there; this says where they are. What each lane comes to does not depend on
+how wide a machine's vectors are: no sum is reordered, none is fused.
 
-Made with numba's extension interface (`numba.extending`); nothing here is called from Python.
+lanes_llvm.py makes them of numba's extension interface, lanes_numpy.py of arrays where the JIT
+is off (NUMBA_DISABLE_JIT=1), which is slow and shows each step to a debugger.
+
+That interface and what it wants of numba's inside can change with any minor version, so
+pyproject.toml caps numba and llvmlite. Who raises the cap checks that
+
+- tests/unit/test_lanes.py and test_without_jit.py pass: the same results compiled and in NumPy;
+- tests/oracle/test_processors.py passes: the same bytes with narrow and with wide vectors, so
+  LLVM still fuses and reorders nothing unasked;
+- `cgutils.get_item_pointer`, `context.make_array`, `context.cast` and the typed pointers of
+  llvmlite (`as_pointer`, `bitcast`, `gep`) are still there, with these arguments;
+- the machine code that is kept is still named `<file>.<function>-<line>.<python>.nbi` and `.nbc`,
+  in the folder that `.stats.cache_path` tells (stale.py, compiled.py);
+- `make bench` is no slower.
 """
 
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from llvmlite import ir
-from numba import njit, types
-from numba.core import cgutils
-from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
+from numpy.typing import NDArray
 
-WIDTH = 8  # lanes: of eight double numbers, 64 bytes, a line of a cache
+from signkin.binning.jit import JIT_OFF, helper
+from signkin.binning.lanes_numpy import ROUND, WIDTH
 
-_DOUBLE, _WHOLE, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
-_DOUBLES, _WHOLES = ir.VectorType(_DOUBLE, WIDTH), ir.VectorType(_WHOLE, WIDTH)
-_ANYTHING = ir.Constant(_DOUBLES, ir.Undefined)
-
-_inline: Any = intrinsic  # a checker of types takes what it makes for a class
-
-
-class Lanes(types.Type):
-    """The type of eight numbers."""
-
-    def __init__(self) -> None:
-        super().__init__(name="Lanes")
-
-
-LANES = Lanes()
-
-
-@register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):
-    def __init__(self, manager: Any, of_type: Any) -> None:
-        super().__init__(manager, of_type, _DOUBLES)
-
-
-# --- arithmetic ------------------------------------------------------------------------------
-
-
-def _all_equal(builder: Any, value: Any) -> Any:
-    first = builder.insert_element(_ANYTHING, value, ir.Constant(_INDEX, 0))
-    mask = ir.Constant(ir.VectorType(_INDEX, WIDTH), [0] * WIDTH)
-    return builder.shuffle_vector(first, _ANYTHING, mask)
-
-
-def _define(sign: Callable[..., Any], instruction: str) -> None:
-    """Let a sign of arithmetic work on lanes, and on lanes and one number."""
-
-    @type_callable(sign)
-    def typing(_context: Any) -> Any:
-        def typer(a: Any, b: Any) -> Any:
-            kinds = (Lanes, types.Float)
-            both = isinstance(a, kinds) and isinstance(b, kinds)
-            return LANES if both and (a is LANES or b is LANES) else None
-
-        return typer
-
-    def lower(_context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        a, b = (
-            value if kind is LANES else _all_equal(builder, value)
-            for kind, value in zip(signature.args, values, strict=True)
-        )
-        return getattr(builder, instruction)(a, b)
-
-    for pair in ((Lanes, Lanes), (Lanes, types.Float), (types.Float, Lanes)):
-        lower_builtin(sign, *pair)(lower)
-
-
-_define(operator.add, "fadd")
-_define(operator.sub, "fsub")
-_define(operator.mul, "fmul")
-_define(operator.truediv, "fdiv")
-
-
-@_inline
-def splat(_typing: Any, _x: Any) -> Any:
-    """Return lanes that are all x."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        return _all_equal(builder, values[0])
-
-    return LANES(types.float64), codegen
-
-
-@_inline
-def larger(_typing: Any, a: Any, b: Any) -> Any:
-    """Return the larger of each pair of lanes."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        x, y = values
-        return builder.select(builder.fcmp_ordered(">", x, y), x, y)
-
-    return LANES(a, b), codegen
-
-
-@_inline
-def where_above(_typing: Any, x: Any, limit: Any, value: Any, otherwise: Any) -> Any:
-    """Return `value` in the lanes in which x is above the limit, `otherwise` in the others."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        above = builder.fcmp_ordered(">", values[0], values[1])
-        return builder.select(above, values[2], values[3])
-
-    return LANES(x, limit, value, otherwise), codegen
-
-
-@_inline
-def any_above(_typing: Any, x: Any, limit: Any) -> Any:
-    """Return whether x is above the limit in some lane."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        above = builder.fcmp_ordered(">", *values)
-        bits = ir.IntType(WIDTH)
-        return builder.icmp_unsigned("!=", builder.bitcast(above, bits), ir.Constant(bits, 0))
-
-    return types.boolean(x, limit), codegen
-
-
-@_inline
-def total(_typing: Any, x: Any) -> Any:
-    """Return the sum of the lanes, by halves: always in the same order."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        left = [builder.extract_element(values[0], ir.Constant(_INDEX, i)) for i in range(WIDTH)]
-        while len(left) > 1:
-            half = len(left) // 2
-            left = [builder.fadd(left[i], left[i + half]) for i in range(half)]
-        return left[0]
-
-    return types.float64(x), codegen
-
-
-@_inline
-def moved_up(_typing: Any, x: Any) -> Any:
-    """Return each lane's neighbour below, and 0 in the first."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        mask = ir.Constant(ir.VectorType(_INDEX, WIDTH), [WIDTH, *range(WIDTH - 1)])
-        return builder.shuffle_vector(values[0], ir.Constant(_DOUBLES, [0.0] * WIDTH), mask)
-
-    return LANES(x), codegen
-
-
-# --- arrays ----------------------------------------------------------------------------------
-
-
-def _place(context: Any, builder: Any, kinds: Any, values: Any) -> Any:
-    """Return the address of an array's element as that of lanes. Nothing is checked."""
-    kind = kinds[0]
-    array = context.make_array(kind)(context, builder, values[0])
-    indices = [
-        context.cast(builder, value, of, types.intp)
-        for value, of in zip(cgutils.unpack_tuple(builder, values[1]), kinds[1], strict=True)
-    ]
-    address = cgutils.get_item_pointer(
-        context, builder, kind, array, indices, wraparound=False, boundscheck=False
+if TYPE_CHECKING or JIT_OFF:
+    from signkin.binning.lanes_numpy import (
+        any_above,
+        larger,
+        load,
+        mantissa,
+        moved_up,
+        power_and_round,
+        splat,
+        store,
+        total,
+        transpose,
+        two_to_the,
+        where_above,
     )
-    return builder.bitcast(address, _DOUBLES.as_pointer())
+else:
+    from signkin.binning.lanes_llvm import (
+        any_above,
+        larger,
+        load,
+        mantissa,
+        moved_up,
+        power_and_round,
+        splat,
+        store,
+        total,
+        transpose,
+        two_to_the,
+        where_above,
+    )
+
+__all__ = [
+    "WIDTH",
+    "aligned",
+    "any_above",
+    "exp",
+    "exp_in_place",
+    "larger",
+    "load",
+    "log",
+    "moved_up",
+    "new_aligned",
+    "splat",
+    "store",
+    "total",
+    "transpose",
+    "where_above",
+]
 
 
-@_inline
-def load(_typing: Any, array: Any, place: Any) -> Any:
-    """Return eight elements of an array from `place`, a full index, along the last axis."""
-
-    def codegen(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        value = builder.load(_place(context, builder, signature.args, values))
-        value.align = 8
-        return value
-
-    return LANES(array, place), codegen
-
-
-@_inline
-def store(_typing: Any, array: Any, place: Any, value: Any) -> Any:
-    """Write lanes to eight elements of an array from `place`, a full index, on."""
-
-    def codegen(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        written = builder.store(values[2], _place(context, builder, signature.args, values))
-        written.align = 8
-        return context.get_dummy_value()
-
-    return types.void(array, place, value), codegen
-
-
-@_inline
-def transpose(_typing: Any, source: Any, at: Any, target: Any, to: Any) -> Any:
-    """Write the columns of the eight rows from `at` on to the eight rows from `to` on.
-
-    Rows are of eight elements, one after the other in memory.
-    """
-
-    def codegen(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        bases = [
-            _place(context, builder, signature.args[i : i + 2], values[i : i + 2]) for i in (0, 2)
-        ]
-        rows = []
-        for i in range(WIDTH):
-            row = builder.load(builder.gep(bases[0], [ir.Constant(_WHOLE, i)]))
-            row.align = 8
-            rows.append(row)
-        # Three rounds: in each, rows `step` apart exchange every other run of `step` lanes.
-        for step in (4, 2, 1):
-            low = [i if not i & step else i + WIDTH - step for i in range(WIDTH)]
-            high = [i + step if not i & step else i + WIDTH for i in range(WIDTH)]
-            for i in range(WIDTH):
-                if i & step:
-                    continue
-                a, b = rows[i], rows[i + step]
-                for at, mask in ((i, low), (i + step, high)):
-                    picked = ir.Constant(ir.VectorType(_INDEX, WIDTH), mask)
-                    rows[at] = builder.shuffle_vector(a, b, picked)
-        for i in range(WIDTH):
-            written = builder.store(rows[i], builder.gep(bases[1], [ir.Constant(_WHOLE, i)]))
-            written.align = 8
-        return context.get_dummy_value()
-
-    return types.void(source, at, target, to), codegen
-
-
-@njit(nogil=True)
-def aligned(n: int) -> Any:
+def new_aligned(n: int) -> NDArray[np.float64]:
     """Return an array of n numbers, of any value, that starts on a line of the cache.
 
     Lanes that lie across two lines take twice as long to load.
@@ -240,15 +92,12 @@ def aligned(n: int) -> Any:
     return room[skipped : skipped + n]
 
 
-# --- elementary functions --------------------------------------------------------------------
+aligned = helper(new_aligned)  # for kernels
 
 LEAST_EXPONENT = -345.0  # log of the smallest number that exp does not take for 0
 _LN2_HIGH = 6.93147180369123816490e-01  # ln 2 in two parts, the first with trailing zeros
 _LN2_LOW = 1.90821492927058770002e-10
 _LOG2_E = 1.4426950408889634
-_ROUND = 6755399441055744.0  # 1.5 * 2**52: added, it leaves a whole number in the low bits
-_ROUND_BITS = 0x4338000000000000
-_SQRT_HALF_BITS = 0x3FE6A09E667F3BCD
 _LOG = (
     6.666666666666735130e-01, 3.999999999940941908e-01, 2.857142874366239149e-01,
     2.222219843214978396e-01, 1.818357216161805012e-01, 1.531383769920937332e-01,
@@ -258,59 +107,14 @@ L1, L2, L3, L4, L5, L6, L7 = _LOG
 C2, C3, C4, C5, C6, C7, C8, C9, C10, C11, C12, C13 = (1.0 / math.factorial(k) for k in range(2, 14))
 
 
-def _same_everywhere(value: int) -> Any:
-    return ir.Constant(_WHOLES, [value] * WIDTH)
-
-
-@_inline
-def _mantissa(_typing: Any, x: Any) -> Any:
-    """Return x divided by the power of two that brings it to sqrt(1/2) .. sqrt(2)."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        bits = builder.bitcast(values[0], _WHOLES)
-        power = builder.ashr(
-            builder.sub(bits, _same_everywhere(_SQRT_HALF_BITS)), _same_everywhere(52)
-        )
-        rest = builder.sub(bits, builder.shl(power, _same_everywhere(52)))
-        return builder.bitcast(rest, _DOUBLES)
-
-    return LANES(x), codegen
-
-
-@_inline
-def _power(_typing: Any, x: Any) -> Any:
-    """Return the exponent of that power of two, plus _ROUND."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        bits = builder.bitcast(values[0], _WHOLES)
-        power = builder.ashr(
-            builder.sub(bits, _same_everywhere(_SQRT_HALF_BITS)), _same_everywhere(52)
-        )
-        return builder.bitcast(builder.add(power, _same_everywhere(_ROUND_BITS)), _DOUBLES)
-
-    return LANES(x), codegen
-
-
-@_inline
-def _to_the_power(_typing: Any, k: Any) -> Any:
-    """Return two to the power of k, whole numbers with _ROUND added."""
-
-    def codegen(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        bits = builder.bitcast(values[0], _WHOLES)
-        biased = builder.add(bits, _same_everywhere(1023))
-        return builder.bitcast(builder.shl(biased, _same_everywhere(52)), _DOUBLES)
-
-    return LANES(k), codegen
-
-
-@njit(nogil=True, error_model="numpy")
+@helper
 def log(x: Any) -> Any:
     """Return the natural logs of lanes, which are positive and normal, to the last bit or so.
 
     The method of the C library fdlibm: a power of two, and a polynomial in (m - 1)/(m + 1).
     """
-    e = _power(x) - _ROUND
-    f = _mantissa(x) - 1.0
+    e = power_and_round(x) - ROUND
+    f = mantissa(x) - 1.0
     s = f / (2.0 + f)
     z = s * s
     w = z * z
@@ -319,12 +123,12 @@ def log(x: Any) -> Any:
     return e * _LN2_HIGH - ((h - (s * (h + r) + e * _LN2_LOW)) - f)
 
 
-@njit(nogil=True, error_model="numpy")
+@helper
 def exp(x: Any) -> Any:
     """Return the exponentials of lanes, which are at most 0; below LEAST_EXPONENT 0."""
     value = larger(x, splat(LEAST_EXPONENT))
-    shifted = value * _LOG2_E + _ROUND
-    k = shifted - _ROUND
+    shifted = value * _LOG2_E + ROUND
+    k = shifted - ROUND
     r = (value - k * _LN2_HIGH) - k * _LN2_LOW
     # The powers of r together, not one after the other: a short chain is a fast one.
     r2 = r * r
@@ -332,10 +136,10 @@ def exp(x: Any) -> Any:
     p = ((C2 + r * C3) + r2 * (C4 + r * C5)) + r4 * ((C6 + r * C7) + r2 * (C8 + r * C9))
     p = p + (r4 * r4) * ((C10 + r * C11) + r2 * (C12 + r * C13))
     p = 1.0 + (r + r2 * p)
-    return where_above(x, splat(LEAST_EXPONENT), p * _to_the_power(shifted), splat(0.0))
+    return where_above(x, splat(LEAST_EXPONENT), p * two_to_the(shifted), splat(0.0))
 
 
-@njit(nogil=True, error_model="numpy")
+@helper
 def exp_in_place(values: Any, n: int) -> None:
     """Replace values[:n], at most 0, by exponentials. There is room for whole lanes."""
     for i in range(0, n, WIDTH):

@@ -7,9 +7,9 @@ orders, arrays as there.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from signkin.binning.jit import kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -29,7 +29,7 @@ NEGLIGIBLE = 1e-20  # probability, or weight in units of the best path, that is 
 FAR_BELOW = -45.0  # log of a share of a sum that is not felt
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def log_ways(evidence: F, most: int, table: F) -> None:
     """Fill table[p, k] with the log of the sum over ways to cut bins p.. into k segments.
 
@@ -66,7 +66,7 @@ def log_ways(evidence: F, most: int, table: F) -> None:
             store(table, (p, k, 0), none)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def log_posterior(evidence: F, mass: F, boundary: F, segments: F) -> None:
     """Add to boundary and segments what the counts with some `mass` say, in the log domain.
 

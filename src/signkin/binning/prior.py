@@ -11,11 +11,11 @@ triangular form: they are made once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import multigammaln
 
 from signkin.errors import SignkinError, listed
 
@@ -45,11 +45,16 @@ class Prior:
 
     def __post_init__(self) -> None:
         """Refuse values that make no density."""
-        deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
-        if not (np.isfinite(deviations).all() and (deviations > 0).all()):
+        deviations = _numbers("noise_sd", self.noise_sd, "a standard deviation above 0")
+        if np.ndim(self.noise_sd):  # lists and arrays, too
+            object.__setattr__(self, "noise_sd", tuple(deviations.tolist()))
+        if not (len(deviations) and np.isfinite(deviations).all() and (deviations > 0).all()):
             raise _error("noise_sd", self.noise_sd, "a standard deviation above 0")
-        if not (np.isfinite(self.concentration) and self.concentration > 0):
+        b = _numbers("concentration", self.concentration, "a number above 0")
+        if not (len(b) == 1 and np.isfinite(b[0]) and b[0] > 0):
             raise _error("concentration", self.concentration, "a number above 0")
+        if self.dof is not None:
+            _numbers("dof", self.dof, "a number, or None for that of dimensions")
         if self.time_unit not in TIME_UNITS:
             raise _error("time_unit", self.time_unit, listed(TIME_UNITS))
         if self.scale not in SCALES:
@@ -79,6 +84,15 @@ class Prior:
         if dt_s is None or not dt_s > 0:
             raise _error("dt_s", dt_s, "the duration of a bin in seconds, for time_unit second")
         return float(dt_s)
+
+
+def _numbers(place: str, found: object, expected: str) -> NDArray[np.float64]:
+    if isinstance(found, (str, bool)):
+        raise _error(place, repr(found), expected)
+    try:
+        return np.atleast_1d(np.asarray(found, dtype=float))
+    except (TypeError, ValueError):
+        raise _error(place, repr(found), expected) from None
 
 
 def _error(place: str, found: object, expected: str) -> SignkinError:
@@ -117,6 +131,8 @@ def _tables(
     longest: int, n_orders: int, dimensions: int, b: float, step: float, dof: float,
     inverse_scale: tuple[float, ...],
 ) -> Tables:  # fmt: skip
+    from scipy.special import multigammaln  # takes half as long to import as numba
+
     geometry = _geometry(longest, n_orders, b, step)
     n = np.arange(1, longest + 1)
     log_scale = float(np.sum(np.log(inverse_scale)))
@@ -169,6 +185,28 @@ def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
         np.ascontiguousarray(powers, dtype=np.float64),
         np.asarray(log_ratio, dtype=np.float64),
     )
+
+
+@lru_cache(maxsize=16)
+def exact_rotations(longest: int, n_orders: int, b: float, step: float) -> NDArray[np.float64]:
+    """Return the rotations with 32 digits: (4, N, D), cosines, sines, and second halves of both."""
+    out = np.empty((4, longest, n_orders))
+    with localcontext() as context:
+        context.prec = 50
+        root_b = Decimal(b).sqrt()
+        factor = [[root_b * (i == j) for j in range(n_orders)] for i in range(n_orders)]
+        for n in range(longest):
+            time = Decimal(step) * (n + 1)
+            row = [time**i if i else Decimal(1) for i in range(n_orders)]
+            for d, old in enumerate(factor):
+                size = (old[d] * old[d] + row[d] * row[d]).sqrt()
+                c, s = old[d] / size, row[d] / size
+                for j in range(d, n_orders):
+                    old[j], row[j] = c * old[j] + s * row[j], c * row[j] - s * old[j]
+                for i, exact in enumerate((c, s)):
+                    out[i, n, d] = float(exact)
+                    out[i + 2, n, d] = float(exact - Decimal(float(exact)))
+    return out
 
 
 def _inverse(upper: NDArray[np.longdouble]) -> NDArray[np.longdouble]:

@@ -12,7 +12,7 @@ import threading
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning import lanes
+from signkin.binning.lanes import new_aligned
 
 MOST_KEPT = 1 << 23  # numbers in one array, 64 MB; more would be held for a rare series
 
@@ -28,7 +28,7 @@ class Room(threading.local):
         size = math.prod(shape)
         room = self._kept.get(name)
         if room is None or len(room) < size:
-            room = lanes.aligned.py_func(size)
+            room = new_aligned(size)
             if size <= MOST_KEPT:
                 self._kept[name] = room
         return room[:size].reshape(shape)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from signkin.binning.jit import kernel
 
 F = NDArray[np.float64]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def best_boundaries(evidence: F, parts: int) -> NDArray[np.int64]:
     """Return the bins that end the segments, but the last, of the best cut into `parts`."""
     bins, longest = evidence.shape
@@ -40,7 +41,7 @@ def best_boundaries(evidence: F, parts: int) -> NDArray[np.int64]:
     return out
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def log_compositions(bins: int, longest: int, most: int) -> F:
     """Return, for m < most, the log of the number of cuts of T bins into m + 1 parts <= W.
 

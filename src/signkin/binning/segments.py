@@ -12,9 +12,10 @@ eight, or `by_order`, (D, T, W): in both at [.., p, n - 1] that of n bins from b
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from signkin.binning.exact import append_exactly
+from signkin.binning.jit import helper, inlined, kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -31,10 +32,12 @@ from signkin.binning.lanes import (
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741
 
+# Product of I + R's diagonal over that of its pivots: how much rounding grows in ln |I + R|.
+MOST_LOST = 1e6
 LEAST = 1e-13  # probability of a segment that expectations pass over
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _append(
     x: F, at: int, cosine: F, sine: F, n: int, orders: int, z: F, old: int, new: int, r: F, rest: F
 ) -> None:  # fmt: skip
@@ -77,33 +80,40 @@ def _append(
                 q += 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
-def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
-    """Fill out[d] (8,) with ln |I + R|, from pivots, which lose nothing.
+@inlined
+def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> bool:
+    """Fill out[d] (8,) with ln |I + R|; returns whether some of them have lost too many digits.
 
-    factor: (L (L+1)/2, 8) scratch. Logs are long chains of sums: they wait for one another less
-    in a loop of their own.
+    They have where the product of pivots is far below that of the diagonal: residuals nearly on
+    a line, or in a plane (MOST_LOST). factor: (L (L+1)/2, 8) scratch. Logs are long chains of
+    sums: they wait for one another less in a loop of their own.
     """
+    lost = False
     if dims == 3:
         for d in range(orders):
             a00 = 1.0 + load(r, (d, 0, 0))
             a10, a20 = load(r, (d, 1, 0)), load(r, (d, 3, 0))
             # The pivots, each times the first one: one division instead of three.
-            b11 = a00 * (1.0 + load(r, (d, 2, 0))) - a10 * a10
+            a11, a22 = 1.0 + load(r, (d, 2, 0)), 1.0 + load(r, (d, 5, 0))
+            b11 = a00 * a11 - a10 * a10
             b21 = a00 * load(r, (d, 4, 0)) - a20 * a10
-            b22 = a00 * (1.0 + load(r, (d, 5, 0))) - a20 * a20
-            store(out, (d, 0), (b11 * b22 - b21 * b21) / a00)
+            b22 = a00 * a22 - a20 * a20
+            minor = b11 * b22 - b21 * b21
+            lost = lost or any_above(a00 * a00 * a11 * a22, MOST_LOST * minor)
+            store(out, (d, 0), minor / a00)
         for d in range(orders):
             store(out, (d, 0), log(load(out, (d, 0))))
-        return
+        return lost
     for d in range(orders):
-        value = splat(0.0)
+        value, diagonal, pivots = splat(0.0), splat(1.0), splat(1.0)
         q = 0
         for k in range(dims):
             first = q  # of row k
             for m in range(k + 1):
                 above = m * (m + 1) // 2  # of row m
                 a = load(r, (d, q, 0)) + (1.0 if k == m else 0.0)
+                if k == m:
+                    diagonal = diagonal * a
                 for j in range(m):
                     # factor holds the entries times the pivot of their column.
                     pivot = load(factor, (j * (j + 3) // 2, 0))
@@ -111,13 +121,18 @@ def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> None:
                 store(factor, (q, 0), a)
                 if k == m:
                     value = value + log(a)
+                    pivots = pivots * a
                 q += 1
+        lost = lost or any_above(diagonal, MOST_LOST * pivots)
         store(out, (d, 0), value)
+    return lost
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F) -> None:
+@kernel
+def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F) -> bool:
     """Fill out, by segment or by order, with the log evidence of every segment.
+
+    Returns whether some of them have lost digits that matter: exact.py is for these data.
 
     x: (L, T + 8), whitened, 0 behind the last bin. The tables are those of prior.Tables. What
     would run over the end of the data is left as it was. Lanes beyond the highest order repeat it.
@@ -133,12 +148,13 @@ def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, 
     factor = aligned(pairs * WIDTH).reshape((pairs, WIDTH))
     values = aligned(groups * WIDTH * WIDTH).reshape((groups * WIDTH, WIDTH))
     turned = aligned(WIDTH * WIDTH).reshape((WIDTH, WIDTH))
+    lost = False
     for first in range(0, bins, WIDTH):
         z[:] = 0.0
         r[:] = 0.0
         for n in range(min(longest, bins - first)):
             _append(x, first + n, cosine, sine, n, orders, z, 0, 0, r, rest)
-            _log_determinants(r, orders, dims, factor, values)
+            lost = _log_determinants(r, orders, dims, factor, values) or lost
             for d in range(orders):
                 store(values, (d, 0), constant[n, d] - half[n] * load(values, (d, 0)))
             here = min(WIDTH, bins - first - n)
@@ -153,9 +169,10 @@ def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, 
                 for d in range(orders):
                     for b in range(here):
                         out[d, first + b, n] = values[d, b]
+    return lost
 
 
-@njit(nogil=True, error_model="numpy")
+@helper
 def _chances(segments: F, first: int, bins: int, wanted: I, chances: F, turned: F, far: I) -> None:
     """Fill chances[n] (D, 8) with the probabilities of segments from `first` on, by starts.
 
@@ -190,21 +207,37 @@ def _chances(segments: F, first: int, bins: int, wanted: I, chances: F, turned: 
                 far[d] = n + 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
-def _noise_of_segments(
-    r: F, d: int, n: int, weight: float, chances: F, dims: int, spread: F
+@inlined
+def _append_all(
+    x: F, at: int, rotations: F, n: int, orders: int, z: F, z_low: F, old: int, new: int, r: F,
+    rest: F, rest_low: F,
 ) -> None:  # fmt: skip
-    """Add to spread[d] the squares and products of residuals, I + R, as likely as they are."""
+    """Append bins as `_append` does, with 32 digits; squares and products have 16."""
+    for d in range(orders):
+        append_exactly(x, at, rotations, n, d, z, z_low, old, new, rest, rest_low)
+        q = 0
+        for k in range(x.shape[0]):
+            for m in range(k + 1):
+                square = load(rest, (k, 0)) * load(rest, (m, 0))
+                store(r, (d, q, 0), load(r, (d, q, 0)) + square)
+                q += 1
+
+
+@inlined
+def _noise_of_segments(
+    r: F, d: int, n: int, weight: float, chances: F, dims: int, scale: F, spread: F
+) -> None:  # fmt: skip
+    """Add to spread[d] the squares and products of residuals, V^-1 + R, as likely as they are."""
     share = load(chances, (n, d, 0)) * weight
     q = 0
     for k in range(dims):
         for m in range(k + 1):
-            value = load(r, (d, q, 0)) + (1.0 if k == m else 0.0)
+            value = load(r, (d, q, 0)) + (scale[k] if k == m else 0.0)
             store(spread, (d, q, 0), load(spread, (d, q, 0)) + share * value)
             q += 1
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _mean_of_segments(
     inverse: F, powers: F, z: F, d: int, far: int, chances: F, first: int, dims: int, sums: F,
     trail: F, mean: F,
@@ -245,17 +278,18 @@ def _mean_of_segments(
                 mean[d, k, first + b] += trail[k, b]
 
 
-@njit(nogil=True, error_model="numpy", forceinline=True)
+@inlined
 def _expectations(
     x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
-    dims: int, mean: F, noise: F, z: F, chances: F,
+    dims: int, mean: F, noise: F, z: F, chances: F, scale: F, rotations: F, z_low: F,
 ) -> None:  # fmt: skip
     orders = len(wanted)
     pairs = dims * (dims + 1) // 2
     r = aligned(orders * pairs * WIDTH).reshape((orders, pairs, WIDTH))
     spread = aligned(orders * pairs * WIDTH).reshape((orders, pairs, WIDTH))
-    rest = aligned(dims * WIDTH).reshape((dims, WIDTH))
+    rest, rest_low = aligned(2 * dims * WIDTH).reshape((2, dims, WIDTH))
     turned = aligned(WIDTH * WIDTH).reshape((WIDTH, WIDTH))
+    exactly = len(z_low) > 0
     sums = aligned(orders * dims * WIDTH).reshape((orders, dims, WIDTH))
     trail = aligned(dims * WIDTH).reshape((dims, WIDTH))
     far = np.empty(orders, dtype=np.int64)
@@ -264,16 +298,22 @@ def _expectations(
     for first in range(0, bins, WIDTH):
         _chances(segments, first, bins, wanted, chances, turned, far)
         z[0] = 0.0
+        z_low[:1] = 0.0
         r[:] = 0.0
         upto = orders
         for n in range(far.max()):
             while far[upto - 1] <= n:
                 upto -= 1  # no longer segments of the highest orders count
-            _append(x, first + n, cosine, sine, n, upto, z, n, n + 1, r, rest)
+            if exactly:
+                _append_all(
+                    x, first + n, rotations, n, upto, z, z_low, n, n + 1, r, rest, rest_low
+                )  # fmt: skip
+            else:
+                _append(x, first + n, cosine, sine, n, upto, z, n, n + 1, r, rest)
             weight = (n + 1) / (2.0 * half[n])
             for d in range(upto):
                 if n < far[d]:
-                    _noise_of_segments(r, d, n, weight, chances, dims, spread)
+                    _noise_of_segments(r, d, n, weight, chances, dims, scale, spread)
         for d in range(orders):
             _mean_of_segments(
                 inverse, powers, z, d, far[d], chances, first, dims, sums, trail, mean
@@ -287,21 +327,24 @@ def _expectations(
                 q += 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def expectations(
     x: F, cosine: F, sine: F, inverse: F, powers: F, half: F, bins: int, segments: F, wanted: I,
-    mean: F, noise: F, z: F, chances: F,
+    mean: F, noise: F, z: F, chances: F, scale: F, rotations: F, z_low: F,
 ) -> None:  # fmt: skip
     """Fill mean[d] (L, T + 8), averaged over segmentations, and noise[d] (L, L), over bins.
 
     x: (L, T + 8) whitened, 0 behind the last bin. segments: probabilities of segments, by
     segment or by order. wanted: (D,) whether an order is; the others become 0. The noise of a
     segment is the inverse of its expected precision. Behind bin T - 1 the mean is of no meaning.
-    z: (W + 1, D, L, 8) and chances: (W, 8 G, 8) scratch.
+    z: (W + 1, D, L, 8) and chances: (W, 8 G, 8) scratch. scale: (L,) V^-1 of x, all 1.
+    With z_low like z, and not of no length, residuals have 32 digits (exact.py: rotations), and x
+    and scale are in the data's unit.
     """
     # The compiler unrolls loops over dimensions where it knows their number.
     tables = (cosine, sine, inverse, powers, half)
+    rest = (mean, noise, z, chances, scale, rotations, z_low)
     if x.shape[0] == 3:
-        _expectations(x, *tables, bins, segments, wanted, 3, mean, noise, z, chances)
+        _expectations(x, *tables, bins, segments, wanted, 3, *rest)
     else:
-        _expectations(x, *tables, bins, segments, wanted, x.shape[0], mean, noise, z, chances)
+        _expectations(x, *tables, bins, segments, wanted, x.shape[0], *rest)

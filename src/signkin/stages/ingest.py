@@ -44,8 +44,7 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
         check_checksum(corpus, folder, name)
     for entry in entries:
         try:
-            recording = _recording(corpus, folder, entry)
-            annotation = _annotation(corpus, folder, entry, recording)
+            recording, annotation = read_entry(corpus, folder, entry)
         except SignkinError as error:
             out.excluded.append(excluded_row(corpus, entry.recording, "reading", error))
             continue
@@ -61,6 +60,12 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
             expected="one recording or more",
         )
     return out
+
+
+def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, Annotation | None]:
+    """Return a recording as the corpus describes it, and its tags where the corpus has tags."""
+    recording = _recording(corpus, folder, entry)
+    return recording, _annotation(corpus, folder, entry, recording)
 
 
 def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError) -> dict[str, Any]:

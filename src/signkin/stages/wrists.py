@@ -99,3 +99,11 @@ def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
     middle = (np.arange(bins) + 0.5) * bin_s
     curve = make_interp_spline(np.arange(frames) / rate_hz, path, k=min(SPLINE_ORDER, frames - 1))
     return np.asarray(curve(middle)), bin_s
+
+
+def sample_at(frames: int, bins: int) -> float:
+    """Return where in its bin a position of `in_bins` is, as a share of the bin.
+
+    In the middle; at the start where each frame is a bin: frame i stands at i / rate.
+    """
+    return 0.0 if bins == frames else 0.5

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import gammaln, logsumexp
 
-from signkin.binning import Prior, fit, segment_log_evidence, sum_product
+from signkin.binning import Prior, counts, fit, segment_log_evidence, sum_product
 from signkin.binning.lanes import WIDTH
 from signkin.studies.endres2013.posteriors import FITTED_MAP, study
 from signkin.studies.endres2013.settings import CutSettings, FitSettings
@@ -111,12 +111,12 @@ def lost_by_the_linear_pass(x, prior):
     ways, spare_ways = np.empty((2, BINS + 1, sum_product.columns_for(BINS), WIDTH))
     weight, spare = np.empty((2, *evidence.shape))
     wanted, low, high = np.ones((3, WIDTH), dtype=np.int64)
-    sum_product.fill_counts(
+    counts.fill_counts(
         evidence, wanted, log_prior, log_by_count, weight, np.empty(WIDTH),
         np.empty((BINS + 1, WIDTH)), ways, low, high, spare_ways, spare,
     )  # fmt: skip
     mass = np.exp(log_by_count[:, 0] - logsumexp(log_by_count[:, 0]))
-    return mass[ways[0, 1 : BINS + 1, 0] < sum_product.UNDERFLOW].sum()
+    return mass[ways[0, 1 : BINS + 1, 0] < counts.UNDERFLOW].sum()
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_two_peaks_far_apart_are_both_weighed(amplitude, seed, falls_back):
     x, prior = waving(amplitude, seed), Prior(noise_sd=NOISE_SD)
     lost = lost_by_the_linear_pass(x, prior)
     # Where the linear domain loses a peak, it is that of one segment a bin or that of few.
-    assert (lost > 1e-7) if falls_back else (lost < sum_product.MOST_LOST)
+    assert (lost > 1e-7) if falls_back else (lost < counts.MOST_LOST)
     count, boundary, evidence = slow_posterior(segment_log_evidence(x, ORDER, prior))
     if falls_back:
         few, many = count[: BINS // 2].sum(), count[BINS // 2 :].sum()
@@ -163,4 +163,4 @@ def test_sums_far_below_the_largest_are_as_exact(size, longest):
             expected = -cuts if longest == BINS else share
         np.testing.assert_allclose(share, expected, rtol=0, atol=1e-7)
         spread.append(np.ptp(sums[possible]))
-    assert max(spread) > -np.log(sum_product.UNDERFLOW)
+    assert max(spread) > -np.log(counts.UNDERFLOW)

@@ -9,12 +9,12 @@ import pytest
 
 from signkin import tables
 from signkin.binning import Prior, fit
+from signkin.binning.posterior import boundary_times
 from signkin.studies.endres2013.posteriors import (
     FITTED,
     FITTED_MAP,
     Data,
     Study,
-    boundary_times,
     chosen,
     explained_variance,
     prior_id,

@@ -84,12 +84,7 @@ class Fitted:
 
     def boundaries_s(self, order: int) -> Floats:
         """Return the M_opt boundaries of an order, in s from the start."""
-        return boundary_times(self.posterior.boundaries(order), self.data.source.bin_s)
-
-
-def boundary_times(ends: NDArray[np.int64], bin_s: float) -> Floats:
-    """Return when segments end that end with the bins given: at the end of the bin."""
-    return np.asarray((np.asarray(ends) + 1) * bin_s, dtype=float)
+        return self.posterior.boundaries_s(order)
 
 
 def chosen(names: Sequence[str], most: int) -> list[str]:
@@ -132,6 +127,7 @@ class Study:
             [item.source.bin_s for item, _, _ in usable],
             workers=self.workers,
             names=[f"recording {item.source.recording}" for item, _, _ in usable],
+            sample_at=[item.source.sample_at for item, _, _ in usable],
         )
         return [Fitted(item, one) for (item, _, _), one in zip(usable, found, strict=True)]
 
@@ -162,8 +158,7 @@ class Study:
         yield Data(source, FITTED, mean, order, fitted.boundaries_s(order), share)
         ends = posterior.map_segmentation(order)
         exact = posterior.map_trajectory(order)
-        truth = boundary_times(ends, source.bin_s)
-        yield Data(source, FITTED_MAP, exact, order, truth, share)
+        yield Data(source, FITTED_MAP, exact, order, posterior.times_s(ends), share)
 
 
 def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[dict[str, Any]]:

@@ -28,7 +28,7 @@ from signkin.recording import Recording
 from signkin.seeds import stream
 from signkin.settings.sections import PowerLaw
 from signkin.stages.ingest import lead
-from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist
+from signkin.stages.wrists import AXES, Wrist, in_bins, moving_hand, ready_wrist, sample_at
 from signkin.studies.endres2013.settings import CutSettings
 
 Floats = NDArray[np.float64]
@@ -40,8 +40,9 @@ RECORDED, POWERLAW = "recorded", "powerlaw"
 class Trajectory:
     """A trajectory in bins, as binning takes it.
 
-    dataset: recorded or powerlaw. x: (T, L) positions at the middle of each bin, in the
-    corpus's unit. bin_s: duration of a bin. boundaries_s: known boundaries, in s from the start.
+    dataset: recorded or powerlaw. x: (T, L) positions, one a bin, in the corpus's unit. bin_s:
+    duration of a bin. boundaries_s: known boundaries, in s from the start. sample_at: where in
+    its bin a position is (`in_bins`).
     """
 
     recording: str
@@ -50,6 +51,7 @@ class Trajectory:
     x: Floats
     bin_s: float
     boundaries_s: Floats
+    sample_at: float = 0.5
 
     @property
     def duration_s(self) -> float:
@@ -140,7 +142,8 @@ def recorded(movement: Movement, bins: int) -> Trajectory:
             expected="2 or more",
         )
     x, bin_s = in_bins(path, wrist.rate_hz, min(bins, len(path)))
-    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0))
+    at = sample_at(len(path), len(x))
+    return Trajectory(wrist.recording, wrist.hand, RECORDED, x, bin_s, np.empty(0), at)
 
 
 def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundTruth | LeftOut:
@@ -154,7 +157,8 @@ def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundT
 
 def _warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:
     x, bin_s = in_bins(truth.positions, truth.rate_hz, min(bins, len(truth.positions)))
-    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s)
+    at = sample_at(len(truth.positions), len(x))
+    return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s, at)
 
 
 def _segments(truth: GroundTruth, unit: str) -> Iterable[dict[str, Any]]:
@@ -253,6 +257,7 @@ def write_trajectories(path: str | Path, trajectories: Sequence[Trajectory]) -> 
             "dataset": pa.array([t.dataset for t in trajectories], pa.string()),
             "dimensions": pa.array([t.x.shape[1] for t in trajectories], pa.int32()),
             "bin_s": pa.array([t.bin_s for t in trajectories], pa.float64()),
+            "sample_at": pa.array([t.sample_at for t in trajectories], pa.float64()),
             "x": pa.array([t.x.ravel() for t in trajectories], pa.list_(pa.float64())),
             "boundaries_s": pa.array(
                 [np.asarray(t.boundaries_s) for t in trajectories], pa.list_(pa.float64())
@@ -271,7 +276,7 @@ def read_trajectories(paths: Iterable[str | Path]) -> list[Trajectory]:
             out.append(
                 Trajectory(
                     row["recording"], row["hand"], row["dataset"], x, row["bin_s"],
-                    np.asarray(row["boundaries_s"], dtype=float),
+                    np.asarray(row["boundaries_s"], dtype=float), row["sample_at"],
                 )
             )  # fmt: skip
     return out

@@ -18,11 +18,12 @@ from signkin.errors import SignkinError
 from signkin.joints import HANDS
 from signkin.recording import Recording
 from signkin.stages.ingest import lead
-from signkin.stages.wrists import in_bins, ready_wrist
-from signkin.studies.endres2013.posteriors import boundary_times, explained_variance, prior_of
+from signkin.stages.wrists import in_bins, ready_wrist, sample_at
+from signkin.studies.endres2013.posteriors import explained_variance, prior_of
 from signkin.studies.one_wrist.settings import SeriesSettings
 
 Floats = NDArray[np.float64]
+Job = tuple[str, str, Floats, float, float]  # of _wrist_in_bins, by recording and hand
 
 
 @dataclass
@@ -49,7 +50,7 @@ def long_series(
     """Bin both wrists of each recording."""
     out = LongSeries()
     order = settings.continuous.order
-    jobs: list[tuple[str, str, Floats, float]] = []
+    jobs: list[Job] = []
     for recording in recordings:
         for hand in HANDS:
             start = {**lead(corpus, recording.name), "dataset": f"{hand} wrist"}
@@ -59,15 +60,16 @@ def long_series(
                 out.left_out.append({**start, "reason": str(error)})
     for longest, some in _by_longest(jobs, settings.continuous.longest_segment_s).items():
         fits = fit_many(
-            [x for _, _, x, _ in some],
+            [x for _, _, x, _, _ in some],
             [order],
-            [prior_of(settings.prior, corpus.noise_sd, x) for _, _, x, _ in some],
-            [bin_s for _, _, _, bin_s in some],
+            [prior_of(settings.prior, corpus.noise_sd, x) for _, _, x, _, _ in some],
+            [bin_s for _, _, _, bin_s, _ in some],
             workers=workers,
-            names=[f"recording {name}, {hand} wrist" for name, hand, _, _ in some],
+            names=[f"recording {name}, {hand} wrist" for name, hand, _, _, _ in some],
+            sample_at=[at for _, _, _, _, at in some],
             max_segment_bins=longest,
         )
-        for (name, hand, x, bin_s), posterior in zip(some, fits, strict=True):
+        for (name, hand, x, bin_s, _), posterior in zip(some, fits, strict=True):
             _take(out, corpus, name, hand, x, bin_s, posterior, order)
     key = {entry.recording: i for i, entry in enumerate(corpus.entries)}
     for rows in (out.posteriors, out.boundaries):
@@ -77,7 +79,8 @@ def long_series(
 
 def _wrist_in_bins(
     recording: Recording, hand: str, settings: SeriesSettings
-) -> tuple[Floats, float]:
+) -> tuple[Floats, float, float]:
+    """Return positions, the duration of a bin, and where in its bin a position is."""
     wrist = ready_wrist(recording, hand, settings.longest_gap_s, settings.lowpass)
     frames, rate, order = len(wrist.path), wrist.rate_hz, settings.continuous.order
     bins = min(frames, round((frames - 1) / rate / settings.continuous.bin_s))
@@ -88,13 +91,11 @@ def _wrist_in_bins(
             expected=f"more than the order, {order}",
         )
     x, bin_s = in_bins(wrist.path, rate, bins)
-    return x - x.mean(axis=0), bin_s
+    return x - x.mean(axis=0), bin_s, sample_at(frames, bins)
 
 
-def _by_longest(
-    jobs: Sequence[tuple[str, str, Floats, float]], longest_s: float
-) -> dict[int, list[tuple[str, str, Floats, float]]]:
-    out: dict[int, list[tuple[str, str, Floats, float]]] = {}
+def _by_longest(jobs: Sequence[Job], longest_s: float) -> dict[int, list[Job]]:
+    out: dict[int, list[Job]] = {}
     for job in jobs:
         out.setdefault(max(2, round(longest_s / job[3])), []).append(job)
     return out
@@ -123,7 +124,7 @@ def _take(
             else f"only {found} local maxima of the boundary posterior",
         }
     )
-    for end, time in zip(ends, boundary_times(ends, bin_s), strict=True):
+    for end, time in zip(ends, posterior.times_s(ends), strict=True):
         near = probability[max(0, end - CLEARANCE_BINS) : end + CLEARANCE_BINS + 1]
         out.boundaries.append(
             {**start, "boundary_s": time, "probability": min(1.0, float(near.sum()))}

@@ -1,16 +1,13 @@
 """How far power-law ground truth and hit rates move with the choices of docs/interpretations.md.
 
-python docs/sensitivity_powerlaw.py RESULTS DATA
+python -m tools.numbers RESULTS DATA powerlaw
 
-RESULTS: the results folder of a finished run (its simulated corpus is used).
-DATA: the folder of the real recordings. Prints Markdown tables; takes about four minutes.
 Corpora of single signs give one trajectory a recording, those of continuous signing one every 2 s;
 right wrists, low-passed at 6 Hz as in Endres et al. 2013, section 2.2.
 """
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -32,6 +29,7 @@ from signkin.powerlaw import (
     warp_to_power_law,
 )
 from signkin.stages.ingest import ingest
+from tools.numbers import table
 
 ROOT = Path(__file__).resolve().parents[1]
 CORPORA = ("isl-sim", "dgs-1984189", "libras", "isl-kinect", "auslan-hq")
@@ -112,8 +110,11 @@ def acceptance(paths: dict[str, list[Trajectory]], s: WarpSettings) -> None:
         print(f"| {name} | {len(of)} | {room(found)} | {len(truths)} | {draws:.0f} | {counts} |")
 
 
-def choices(paths: dict[str, list[Trajectory]], s: WarpSettings) -> None:
-    """Print the effect of each choice on all corpora."""
+def choices(
+    paths: dict[str, list[Trajectory]], s: WarpSettings
+) -> dict[str, dict[str, list[Found]]]:
+    """Print the effect of each choice on all corpora; returns what was found."""
+    everything = {}
     print(
         "\n### Choices: ground truth of those with room; exponents; R squared, least and median\n"
     )
@@ -121,8 +122,11 @@ def choices(paths: dict[str, list[Trajectory]], s: WarpSettings) -> None:
     print("|---" * (1 + len(paths)) + "|")
     for label, change in CHOICES.items():
         cells = []
-        for of in paths.values():
-            found = warp(of, replace(s, **change))  # type: ignore[arg-type]
+        everything[label] = {
+            name: warp(of, replace(s, **change))  # type: ignore[arg-type]
+            for name, of in paths.items()
+        }
+        for found in everything[label].values():
             truths = good(found)
             cell = f"{len(truths)} of {room(found)}"
             if truths:
@@ -130,7 +134,36 @@ def choices(paths: dict[str, list[Trajectory]], s: WarpSettings) -> None:
                 fits = [law.r_squared for one in truths for law in one.fitted]
                 cell += f"; {quartiles(beta)}; {np.nanmin(fits):.2f}, {np.nanmedian(fits):.4f}"
             cells.append(cell)
-        print(f"| {label} | " + " | ".join(cells) + " |")
+        print(f"| {label} | " + " | ".join(cells) + " |", flush=True)
+    return everything
+
+
+def accepted(found: list[Found]) -> str:
+    """Format how many of those long enough have ground truth."""
+    return f"{len(good(found))} of {room(found)}"
+
+
+def flatness(found: list[Found]) -> str:
+    """Format the number of ground truths and the median exponent drawn."""
+    beta = [law.beta for one in good(found) for law in one.drawn]
+    return f"{len(good(found))}; {np.median(beta):.2f}" if beta else "0"
+
+
+def places(found: dict[str, dict[str, list[Found]]]) -> dict[str, str]:
+    """Return the tables of the page, by the name of their place."""
+    names = [{"dgs-1984189": "dgs"}.get(name, name) for name in found["as shipped"]]
+    gains = {"**duration**": "as shipped", "first_sample": "first_gain: first_sample"}
+    ratios = {"1.5": "ratios 1.5", "**2**": "as shipped", "3": "ratios 3"}
+    return {
+        "powerlaw-gain": table(
+            ("ground truth of those long enough", *names),
+            ((label, *map(accepted, found[key].values())) for label, key in gains.items()),
+        ),
+        "powerlaw-ratio": table(
+            ("ratio", *names),
+            ((label, *map(flatness, found[key].values())) for label, key in ratios.items()),
+        ),
+    }
 
 
 def consequences(paths: dict[str, list[Trajectory]], s: WarpSettings) -> None:
@@ -237,18 +270,26 @@ def bends() -> None:
         print(f"| {v:g} | " + " | ".join(cells) + " |")
 
 
-def main(results: Path, data: Path) -> None:
-    """Print all tables."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    s = WarpSettings(**config["powerlaw"])
+def main(results: Path, data: Path) -> dict[str, str]:
+    """Print every table; returns those of the page."""
+    s = settings()
     paths = {name: trajectories(name, results, data) for name in CORPORA}
     paths = {name: of for name, of in paths.items() if of}
     bends()
     acceptance(paths, s)
-    choices(paths, s)
+    found = choices(paths, s)
     consequences(paths, s)
     matching(paths, s)
+    return places(found)
 
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+def settings() -> WarpSettings:
+    """Return the settings of config.yaml."""
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    return WarpSettings(**config["powerlaw"])
+
+
+def sample(results: Path) -> tuple[str, str]:
+    """Return a place and the start of a row of it, from simulated recordings, to compare."""
+    found = warp(trajectories("isl-sim", results, results), settings())
+    return "powerlaw-ratio", f"| **2** | {flatness(found)} |"

@@ -1,15 +1,12 @@
-"""How far results move with the choices of docs/interpretations.md: prints Markdown tables.
+"""How far Naert et al.'s results move with the choices of docs/interpretations.md.
 
-python docs/sensitivity.py RESULTS DATA
-
-RESULTS: the results folder of a finished run (its simulated corpus is used).
-DATA: the folder of the real recordings.
+python -m tools.numbers RESULTS DATA naert2017
 """
 
 from __future__ import annotations
 
 import copy
-import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +21,7 @@ from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
 from signkin.studies.naert2017 import coarticulation, simulation
 from signkin.studies.naert2017 import exhibits as naert2017
+from tools.numbers import table
 
 ROOT = Path(__file__).resolve().parents[1]
 CHOICES: dict[str, dict[str, Any]] = {
@@ -40,6 +38,8 @@ CHOICES: dict[str, dict[str, Any]] = {
     "window 0.20 s": {"refinement.window_s": 0.20},
     "orientations to the parent": {"transitions.geodesic_frame": "parent"},
 }
+SHIPPED = "as shipped"
+Measures = Mapping[str, str]
 
 
 def changed(config: dict[str, Any], choice: dict[str, Any]) -> dict[str, Any]:
@@ -97,33 +97,78 @@ def measures(
     return out
 
 
-def table(rows: dict[str, dict[str, str]]) -> str:
-    """Return rows as Markdown."""
-    columns = list(next(iter(rows.values())))
-    lines = ["| choice | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
-    lines += [f"| {name} | " + " | ".join(r[c] for c in columns) + " |" for name, r in rows.items()]
-    return "\n".join(lines)
+def of_corpus(
+    name: str, folder: Path, choices: Mapping[str, dict[str, Any]]
+) -> dict[str, dict[str, str]]:
+    """Return the measures of a corpus under each choice. folder: its recordings."""
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    corpus = load_corpus(ROOT / "corpora" / name)
+    read = ingest(corpus, folder, corpus.entries)
+    simulated = folder if corpus.simulator else None
+    recorded = corpus.settings["motion"]["orientations"] == "recorded"
+    return {
+        choice: measures(corpus, read, changed(config, keys), simulated)
+        for choice, keys in choices.items()
+        if recorded or "parent" not in choice
+    }
 
 
-def main() -> None:
-    """Print the tables."""
-    results, data = Path(sys.argv[1]), Path(sys.argv[2])
-    config = yaml.safe_load((ROOT / "config.yaml").read_text())
+def near(found: Measures) -> str:
+    """Format the share of tags near a minimum, with chance."""
+    return f"{float(found['tags near a minimum']):.2f} ({float(found['chance']):.2f})"
+
+
+def lowpass_row(label: str, sim: Measures, dgs: Measures) -> list[str]:
+    """Return a row of the table of low-pass filters."""
+    return [label, near(sim), near(dgs), f"{float(dgs['minima a second']):.1f}"]
+
+
+def places(lsf: Mapping[str, Measures], dgs: Mapping[str, Measures]) -> dict[str, str]:
+    """Return the tables of the page, by the name of their place."""
+    lowpasses = {
+        "4 Hz": "low-pass 4 Hz", "**6 Hz**": SHIPPED, "8 Hz": "low-pass 8 Hz",
+        "10 Hz": "low-pass 10 Hz", "6 Hz, FIR": "FIR 6 Hz",
+    }  # fmt: skip
+    prominences = {
+        "0": "prominence 0", "0.02": "prominence 0.02", "**0.05**": SHIPPED,
+        "0.1": "prominence 0.1",
+    }  # fmt: skip
+    error = "refined error to truth, right (s)"
+    return {
+        "naert2017-lowpass": table(
+            ("", "tags near a minimum (chance), lsf-sim", "dgs", "minima a second, dgs"),
+            (lowpass_row(label, lsf[key], dgs[key]) for label, key in lowpasses.items()),
+        ),
+        "naert2017-prominence": table(
+            ("prominence", "minima a second, dgs", "tags near a minimum (chance), dgs",
+             "refined error to truth, lsf-sim"),
+            (
+                (label, f"{float(dgs[key]['minima a second']):.1f}", near(dgs[key]),
+                 f"{1000 * float(lsf[key][error]):.0f} ms")
+                for label, key in prominences.items()
+            ),
+        ),
+    }  # fmt: skip
+
+
+def main(results: Path, data: Path) -> dict[str, str]:
+    """Print every table; returns those of the page."""
+    found = {}
     for name in ("lsf-sim", "dgs-1984189", "boston104"):
-        corpus = load_corpus(ROOT / "corpora" / name)
-        simulated = results / name / "simulated" if corpus.simulator else None
-        read = ingest(corpus, simulated or data / name, corpus.entries)
-        rows = {}
-        for choice, keys in CHOICES.items():
-            if "parent" in choice and corpus.settings["motion"]["orientations"] != "recorded":
-                continue
-            rows[choice] = measures(corpus, read, changed(config, keys), simulated)
-        print(f"\n**{name}**\n\n{table(rows)}")
+        simulated = results / name / "simulated"
+        folder = simulated if simulated.is_dir() else data / name
+        found[name] = of_corpus(name, folder, CHOICES)
+        columns = list(found[name][SHIPPED])
+        rows = ([choice, *row.values()] for choice, row in found[name].items())
+        print(f"\n**{name}**\n\n{table(['choice', *columns], rows)}")
         moves = pd.read_csv(results / f"naert2017/{name}/transitions.csv", dtype={"type": str})
         durations = naert2017.counted(moves)["duration_s"].to_numpy(dtype=float)
         counts = {f: int(np.sum(outliers(durations, f))) for f in (1.5, 3.0)}
-        print(f"\nOutliers by fences of 1.5 and 3 interquartile ranges: {counts}")
+        print(f"\nOutliers by fences of 1.5 and 3 interquartile ranges: {counts}", flush=True)
+    return places(found["lsf-sim"], found["dgs-1984189"])
 
 
-if __name__ == "__main__":
-    main()
+def sample(results: Path) -> tuple[str, str]:
+    """Return a place and the start of a row of it, from simulated recordings, to compare."""
+    found = of_corpus("lsf-sim", results / "lsf-sim" / "simulated", {SHIPPED: {}})
+    return "naert2017-lowpass", f"| **6 Hz** | {near(found[SHIPPED])} |"

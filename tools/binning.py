@@ -1,14 +1,12 @@
 """How far Bayesian binning moves with the choices of docs/interpretations.md.
 
-python docs/sensitivity_binning.py RESULTS DATA
+python -m tools.numbers RESULTS DATA binning
 
-RESULTS: the results folder of a finished run. DATA: the folder of the real recordings. Prints
-Markdown tables; takes about four minutes on one core. 40 recordings of each corpus, evenly spread.
+40 recordings of each corpus, evenly spread.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -29,7 +27,6 @@ from signkin.studies.endres2013.posteriors import (
     FITTED_MAP,
     Data,
     Study,
-    boundary_times,
     chosen,
     prior_of,
 )
@@ -43,12 +40,21 @@ from signkin.studies.endres2013.single_signs import (
 )
 from signkin.studies.one_wrist.long_series import long_series
 from signkin.studies.one_wrist.settings import SeriesSettings
+from tools.binning_tables import (
+    MOST,
+    ORDERS,
+    SHIPPED,
+    Outcome,
+    by_variant,
+    of_many_dof,
+    of_picking,
+    of_recovery,
+)
+from tools.numbers import table
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
 CONTINUOUS = ("lsf-sim", "dgs-1984189", "libras")
-MOST = 40
-ORDERS = tuple(range(8))
 Ints = NDArray[np.int64]
 
 
@@ -73,7 +79,7 @@ class Variant:
 
 
 VARIANTS = {
-    "as shipped": Variant({}),
+    SHIPPED: Variant({}),
     "noise_sd halved": Variant({}, noise=0.5),
     "noise_sd doubled": Variant({}, noise=2.0),
     "prior.noise data": Variant({"prior.noise": "data"}),
@@ -136,6 +142,7 @@ def binned(
     return fit_many(
         x, ORDERS, [prior_of(prior, of.corpus.noise_sd * variant.noise, one) for one in x],
         [t.bin_s for t in trajectories], max_count=variant.max_count, expectations=False,
+        sample_at=[t.sample_at for t in trajectories],
     )  # fmt: skip
 
 
@@ -152,7 +159,7 @@ def rates(
     """Return hit rate and false positives a second on ground truth."""
     found = [
         hit_rate(
-            boundary_times(choose(fit, order), t.bin_s), t.boundaries_s, window_s,
+            fit.times_s(choose(fit, order)), t.boundaries_s, window_s,
             duration_s=t.duration_s,
         )
         for t, fit in zip(trajectories, fits, strict=True)
@@ -163,7 +170,7 @@ def rates(
     seconds = sum(t.duration_s for t in trajectories if t.dataset == POWERLAW)
     hits, misses = sum(r.hits for r in found), sum(r.misses for r in found)
     wrong = sum(r.false_positives for r in found)
-    return f"{hits / (hits + misses):.2f}, {wrong / seconds:.2f} (n = {len(found)})"
+    return f"{hits / (hits + misses):.2f}, {wrong / seconds:.2f}"
 
 
 def maxima(posterior: Posterior, order: int) -> Ints:
@@ -181,37 +188,50 @@ def single_bins(posterior: Posterior, order: int) -> Ints:
     return np.sort(best[: posterior.map_count(order)])
 
 
-def choices(of: Takes, settings: Settings) -> None:
-    """Print what each variant does to a corpus."""
+def outcome(of: Takes, settings: Settings, variant: Variant) -> Outcome:
+    """Bin the trajectories of a corpus under a variant."""
+    trajectories = cut(of, settings, variant)
+    fits = binned(of, trajectories, settings, variant)
+    by_kind = {
+        kind: [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == kind]
+        for kind in (RECORDED, POWERLAW)
+    }
+    mean = {
+        kind: np.mean([f.order_probability for f in here], axis=0)
+        for kind, here in by_kind.items()
+        if here
+    }
+    recorded = by_kind[RECORDED]
+    return Outcome(
+        counts=tuple(float(np.mean([f.map_count(s) for f in recorded])) for s in (0, 3, 7)),
+        posterior=mean[RECORDED],
+        truths_posterior=mean.get(POWERLAW),
+        rates=rates(trajectories, fits, 3, maxima, settings.binning.hit_window_s),
+        recorded=len(recorded),
+        truths=len(by_kind[POWERLAW]),
+        left=sum(t.hand == "left" for t in trajectories if t.dataset == RECORDED),
+    )
+
+
+def choices(of: Takes, settings: Settings) -> dict[str, Outcome]:
+    """Print what each variant does to a corpus; returns it."""
     print(f"\n### {of.corpus.name}: M at orders 0, 3, 7; order posterior; ground truth\n")
     print("| | M | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s | left hand |")
     print("|---" * 7 + "|")
+    found = {}
     for label, variant in VARIANTS.items():
-        own = changed(settings, variant.config)
-        trajectories = cut(of, own, variant)
-        fits = binned(of, trajectories, own, variant)
-        window = own.binning.hit_window_s
-        cells = []
-        for kind in (RECORDED, POWERLAW):
-            here = [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == kind]
-            if here:
-                mean = np.mean([f.order_probability for f in here], axis=0)
-                cells.append((here, mean))
-        recorded, mean = cells[0]
-        counts = ", ".join(
-            f"{np.mean([f.map_count(order) for f in recorded]):.1f}" for order in (0, 3, 7)
-        )
-        peak = str(int(np.argmax(cells[1][1]))) if len(cells) > 1 else "none"
-        left = sum(t.hand == "left" for t in trajectories if t.dataset == RECORDED)
+        one = found[label] = outcome(of, changed(settings, variant.config), variant)
         print(
-            f"| {label} | {counts} | {int(np.argmax(mean))} | {mean[3:6].sum():.2f} | {peak} "
-            f"| {rates(trajectories, fits, 3, maxima, window)} | {left} of {len(recorded)} |"
+            f"| {label} | {one.m()} | {one.peak} | {one.middle} | {one.truths_peak} "
+            f"| {one.rates} (n = {one.truths}) | {one.left} of {one.recorded} |",
+            flush=True,
         )
+    return found
 
 
-def picking(of: Takes, settings: Settings) -> None:
-    """Print hits on ground truth by the way in which boundaries are taken from the posterior."""
-    shipped = VARIANTS["as shipped"]
+def picking(of: Takes, settings: Settings) -> dict[str, list[str]]:
+    """Print hits on ground truth by the way in which boundaries are taken; returns the cells."""
+    shipped = VARIANTS[SHIPPED]
     trajectories = cut(of, settings, shipped)
     fits = binned(of, trajectories, settings, shipped)
     window = settings.binning.hit_window_s
@@ -224,13 +244,20 @@ def picking(of: Takes, settings: Settings) -> None:
     print(f"\n### {of.corpus.name}, ground truth: hit rate, false positives a second\n")
     print("| | order 0 | order 1 | order 3 | order 5 |")
     print("|---" * 5 + "|")
+    found = {}
     for label, way in ways.items():
         cells = [rates(trajectories, fits, order, way, window) for order in (0, 1, 3, 5)]
-        print(f"| {label} | " + " | ".join(cells) + " |")
+        found[label] = [cells[0], cells[2]]
+        print(f"| {label} | " + " | ".join(cells) + " |", flush=True)
+    return found
 
 
-def recovery(of: Takes, settings: Settings) -> None:
-    """Print P(true order), hit rate and false positives a second of fitted trajectories."""
+def recovery(of: Takes, settings: Settings) -> dict[tuple[str, float, float], list[str]]:
+    """Print P(true order), hit rate and false positives a second of fitted trajectories.
+
+    Returns them by the kind of trajectory, b and the share of the noise.
+    """
+    found = {}
     for kind in ("fitted", FITTED_MAP):
         print(f"\n### {of.corpus.name}, {kind}: P(true order) / hit rate / false pos. a second\n")
         print("| b | noise | " + " | ".join(f"order {order}" for order in ORDERS[1:]) + " |")
@@ -238,8 +265,9 @@ def recovery(of: Takes, settings: Settings) -> None:
         for b in (0.1, 0.001):
             for share in (1.0, 0.1, 0.0125):
                 changes = {"prior.concentration": b, "recovery_noise": share}
-                cells = recovered(of, changed(settings, changes), kind)
-                print(f"| {b:g} | {share:g} | " + " | ".join(cells) + " |")
+                cells = found[kind, b, share] = recovered(of, changed(settings, changes), kind)
+                print(f"| {b:g} | {share:g} | " + " | ".join(cells) + " |", flush=True)
+    return found
 
 
 def recovered(
@@ -247,7 +275,7 @@ def recovered(
 ) -> list[str]:
     """Return a cell for each true order."""
     runs = Study(of.corpus, FitSettings.of(settings))
-    trajectories = cut(of, settings, VARIANTS["as shipped"])
+    trajectories = cut(of, settings, VARIANTS[SHIPPED])
     fits = runs.run([Data(t, t.dataset, t.x, None, t.boundaries_s) for t in trajectories])
     cells = []
     for order in orders:
@@ -274,48 +302,31 @@ def recovered(
     return cells
 
 
-def nearest(of: Takes, settings: Settings) -> None:
+def nearest(of: Takes, settings: Settings) -> dict[str, Outcome]:
     """Print the printed prior with many degrees of freedom: what comes nearest to the paper."""
     print(f"\n### {of.corpus.name}: the printed prior (data's variances, b = 0.1, T = 100, bins)\n")
     print("| dof | M at 0, 3, 7 | peak | P(3-5) | truth's peak | order 3: hit rate, false pos./s "
           "| refound order 3, averaged: P, hit rate | the most probable |")  # fmt: skip
     print("|---" * 8 + "|")
+    out = {}
     for dof in (100, 300, 1000, 3000):
         changes = {
             "prior.noise": "data", "prior.scale": "plain", "prior.dof": dof, "recovery_noise": 1.0,
         }  # fmt: skip
         own = changed(settings, changes)
-        trajectories = cut(of, own, VARIANTS["as shipped"])
-        fits = binned(of, trajectories, own, VARIANTS["as shipped"])
-        mean = {
-            kind: np.mean(
-                [
-                    f.order_probability
-                    for t, f in zip(trajectories, fits, strict=True)
-                    if t.dataset == kind
-                ],
-                axis=0,
-            )
-            for kind in (RECORDED, POWERLAW)
-        }
-        recorded = [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == RECORDED]
-        counts = ", ".join(
-            f"{np.mean([f.map_count(order) for f in recorded]):.1f}" for order in (0, 3, 7)
-        )
+        one = out[f"{dof:,}"] = outcome(of, own, VARIANTS[SHIPPED])
         again = [recovered(of, own, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
         print(
-            f"| {dof} | {counts} | {int(np.argmax(mean[RECORDED]))} "
-            f"| {mean[RECORDED][3:6].sum():.2f} | {int(np.argmax(mean[POWERLAW]))} "
-            f"| {rates(trajectories, fits, 3, maxima, own.binning.hit_window_s)} "
-            f"| {again[0]} | {again[1]} |"
+            f"| {dof} | {one.m()} | {one.peak} | {one.middle} | {one.truths_peak} "
+            f"| {one.rates} (n = {one.truths}) | {again[0]} | {again[1]} |",
+            flush=True,
         )
+    return out
 
 
-def many_boundaries(results: Path) -> None:
-    """Print how often the most probable M is near T - 1, by corpus and order."""
-    print("\n### Recorded trajectories with the most probable M at half the bins or more\n")
-    print("| | n | bins, median | " + " | ".join(f"order {order}" for order in ORDERS) + " |")
-    print("|---" * 11 + "|")
+def many_boundaries(results: Path) -> list[list[str]]:
+    """Return how often the most probable M is near T - 1, a row a corpus, by order."""
+    out = []
     for name in SINGLE:
         path = results / "endres2013" / name / "binning.csv"
         if not path.exists():
@@ -324,15 +335,17 @@ def many_boundaries(results: Path) -> None:
         rows = rows[rows["dataset"] == RECORDED]
         many = (rows["map_count"] >= rows["n_bins"] / 2).groupby(rows["order"]).sum()
         every = (rows["map_count"] == rows["n_bins"] - 1).groupby(rows["order"]).sum()
-        cells = [f"{many[order]} ({every[order]} at T - 1)" for order in ORDERS]
+        cells = [f"{many[order]:,} ({every[order]:,})" for order in ORDERS]
         n, bins = rows["recording"].nunique(), rows["n_bins"].median()
-        print(f"| {name} | {n} | {bins:g} | " + " | ".join(cells) + " |")
+        out.append([name, f"{n:,}, {bins:g}", *cells])
+    return out
 
 
-def long_ones(of: Takes, settings: Settings) -> None:
-    """Print what the settings of long series do."""
+def long_ones(of: Takes, settings: Settings) -> dict[str, str]:
+    """Print what the settings of long series do; returns boundaries a second."""
+    out = {}
     variants: dict[str, dict[str, object]] = {
-        "as shipped": {},
+        SHIPPED: {},
         "longest 1 s": {"continuous.longest_segment_s": 1.0},
         "longest 4 s": {"continuous.longest_segment_s": 4.0},
         "bins of 0.01 s": {"continuous.bin_s": 0.01},
@@ -349,10 +362,13 @@ def long_ones(of: Takes, settings: Settings) -> None:
         )
         rows = found.table("wrist_posteriors", of.corpus.unit)
         by_hand = rows.groupby("hand")["boundaries_per_s"].mean()
+        out[label] = f"{by_hand['right']:.2f} ({by_hand['left']:.2f})"
         print(
             f"| {label} | {rows['n_bins'].max()} | {by_hand['right']:.2f} | {by_hand['left']:.2f} "
-            f"| {rows['cut_mass'].max():.1e} | {rows['explained_variance'].min():.4f} |"
+            f"| {rows['cut_mass'].max():.1e} | {rows['explained_variance'].min():.4f} |",
+            flush=True,
         )
+    return out
 
 
 def splines(of: Takes, settings: Settings) -> None:
@@ -373,24 +389,45 @@ def splines(of: Takes, settings: Settings) -> None:
     print(f"| {of.corpus.name} | {fewer} of {len(of.recordings)} | {told} |")
 
 
-def main(results: Path, data: Path) -> None:
-    """Print all tables."""
+def main(results: Path, data: Path) -> dict[str, str]:
+    """Print every table; returns those of the page."""
     settings = load_settings(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")))
-    single = [of for name in SINGLE if (of := takes(name, results, data)) is not None]
-    many_boundaries(results)
+    single = {name: of for name in SINGLE if (of := takes(name, results, data)) is not None}
+    many = table(
+        ("", "n, median bins", *(f"order {order}" for order in ORDERS)), many_boundaries(results)
+    )
     print("\n### Recordings with as many bins as samples; spline against straight lines\n")
     print("| | as many | largest distance |\n|---|---|---|")
-    for of in single:
+    for of in single.values():
         splines(of, settings)
-    for of in single:
-        choices(of, settings)
-        picking(of, settings)
-        nearest(of, settings)
-    recovery(single[0], settings)
-    for name in CONTINUOUS:
-        if (of := takes(name, results, data)) is not None:
-            long_ones(of, settings)
+    found = {name: choices(of, settings) for name, of in single.items()}
+    picked = {name: picking(of, settings) for name, of in single.items()}
+    near = {name: nearest(of, settings) for name, of in single.items()}
+    refound = recovery(single["isl-sim"], settings)
+    series = {
+        name: long_ones(of, settings)
+        for name in CONTINUOUS
+        if (of := takes(name, results, data)) is not None
+    }
+    rows = next(iter(series.values()))
+    return {
+        **by_variant(found),
+        "binning-nu": of_many_dof(near),
+        "binning-many": many,
+        "binning-recovery-map": of_recovery(refound, FITTED_MAP),
+        "binning-recovery-averaged": of_recovery(refound, "fitted"),
+        "binning-picking": of_picking(picked),
+        "binning-long": table(
+            ("boundaries a second, right wrist (left)", *series),
+            ([label, *(of[label] for of in series.values())] for label in rows),
+        ),
+    }
 
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+def sample(results: Path) -> tuple[str, str]:
+    """Return a place and the start of a row of it, from simulated recordings, to compare."""
+    settings = load_settings(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")))
+    of = takes("isl-sim", results, results)
+    assert of is not None
+    one = outcome(of, settings, VARIANTS[SHIPPED])
+    return "binning-noise", f"| **sensor** | {one.m()}; {one.rates} |"

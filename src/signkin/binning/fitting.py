@@ -1,0 +1,236 @@
+"""Fit trajectories: data and settings are checked here, and the parts put together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signkin.binning.all_counts import counted, in_band, log_sum
+from signkin.binning.evidence import Engine
+from signkin.binning.posterior import Posterior
+from signkin.binning.prior import HIGHEST_ORDER, Prior
+from signkin.binning.segmentation_prior import log_uniform
+from signkin.errors import SignkinError
+
+Floats = NDArray[np.float64]
+
+# Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
+EVERY_COUNT_UP_TO = 256
+
+
+def fit(
+    X: Floats,
+    orders: Sequence[int] = tuple(range(8)),
+    prior: Prior | None = None,
+    dt_s: float | None = None,
+    max_count: int | None = None,
+    max_segment_bins: int | None = None,
+    expectations: bool = True,
+    name: str = "trajectory",
+    sample_at: float = 0.5,
+) -> Posterior:
+    """Return the posterior of one trajectory for all orders at once.
+
+    X: (T, L), taken as given: the prior's coefficients are around 0, so centre it first.
+    Masked values are gaps.
+    orders: polynomial orders. prior: mandatory. dt_s: duration of a bin, for
+    Prior(time_unit="second") and `Posterior.boundaries_s`. sample_at: where in its bin a sample
+    stands, as a share of the bin: in the middle, or 0 where bins are frames.
+    max_count: the largest M worked out; None is every M up to 256 bins, and above those around
+    the likely M, the others being -inf; either way `cut_mass` bounds the share of P(M | D) that
+    is left out. A count takes 128 bytes of memory a bin.
+    max_segment_bins: the longest segment; segmentations with longer ones have no prior
+    probability, the others share it evenly.
+    expectations: whether to work out expected trajectories and noise too.
+
+    Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
+    """
+    prior = _a_prior(prior, name)
+    if dt_s is not None:
+        dt_s = _positive(dt_s, "dt_s", name)
+    x, wanted = _checked(X, orders, name)
+    bins = len(x)
+    longest = bins
+    if max_segment_bins is not None:
+        longest = min(_whole(max_segment_bins, "max_segment_bins", 1, name), bins)
+    if max_count is not None:
+        max_count = _whole(max_count, "max_count", 0, name)
+    try:
+        engine = Engine(x, prior, longest, max(wanted) + 1, dt_s)
+    except SignkinError as error:
+        raise error.at(file=name) from error
+    every = max_count is not None or bins <= EVERY_COUNT_UP_TO
+    if every:
+        found = counted(engine.by_segment(), wanted, bins, longest, max_count)
+    else:
+        found = in_band(engine.by_order(), wanted, bins, longest)
+    mean = noise = None
+    if expectations:
+        mean, noise = engine.expect(found.segments, wanted)
+    return Posterior(
+        x=x,
+        prior=prior,
+        dt_s=dt_s,
+        sample_at=float(sample_at),
+        orders=wanted,
+        max_segment_bins=longest,
+        log_evidence_by_count=found.log_by_count - log_uniform(bins),
+        log_evidence=found.log_evidence,
+        order_probability=np.exp(found.log_evidence - log_sum(found.log_evidence)),
+        cut_mass=found.cut_mass,
+        exact=engine.exact,
+        _count_probability=found.probability,
+        _boundary=found.boundary,
+        _mean=mean,
+        _noise=noise,
+    )
+
+
+def fit_many(
+    trajectories: Sequence[Floats],
+    orders: Sequence[int] = tuple(range(8)),
+    prior: Prior | Sequence[Prior] | None = None,
+    dt_s: float | Sequence[float] | None = None,
+    workers: int = 1,
+    names: Sequence[str] | None = None,
+    sample_at: float | Sequence[float] = 0.5,
+    **options: Any,
+) -> list[Posterior]:
+    """Fit many trajectories, on `workers` cores; the results do not depend on how many.
+
+    The kernels run without Python's lock, so threads share the work. prior, dt_s,
+    sample_at: one for all, or one each. options: as for `fit`.
+    """
+    n = len(trajectories)
+    priors = [prior] * n if prior is None or isinstance(prior, Prior) else _each(prior, "prior", n)
+    steps = [dt_s] * n if dt_s is None or np.ndim(dt_s) == 0 else _each(dt_s, "dt_s", n)
+    places = [sample_at] * n if np.ndim(sample_at) == 0 else _each(sample_at, "sample_at", n)
+    called = (
+        [f"trajectory {i + 1}" for i in range(n)] if names is None else _each(names, "names", n)
+    )
+
+    def one(job: tuple[Floats, Any, Any, Any, str]) -> Posterior:
+        x, of_it, step, place, name = job
+        return fit(x, orders, of_it, step, name=name, sample_at=place, **options)
+
+    jobs = zip(trajectories, priors, steps, places, called, strict=True)
+    if workers <= 1:
+        return [one(job) for job in jobs]
+    with ThreadPoolExecutor(max_workers=workers) as pool:
+        return list(pool.map(one, jobs))
+
+
+def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:
+    """Return ln P(X[i..j]) of every segment, (T, T) at [i, j], inclusive; -inf for j < i.
+
+    Local time runs from 1 to the segment's number of bins. X is taken as given.
+    """
+    prior = _a_prior(prior, "trajectory")
+    x, _ = _checked(X, [order], "trajectory", least_bins=1)
+    bins = len(x)
+    by_length = Engine(x, prior, bins, order + 1, dt_s).by_order()[order]
+    out = np.full((bins, bins), -np.inf)
+    for i in range(bins):
+        out[i, i:] = by_length[i, : bins - i]
+    return out
+
+
+def _checked(
+    X: Floats, orders: Sequence[int], name: str, least_bins: int = 2
+) -> tuple[Floats, tuple[int, ...]]:
+    try:
+        x: Floats  # a copy: the caller may go on with his own
+        if np.ma.isMaskedArray(X):
+            x = np.array(
+                np.ma.filled(np.ma.asarray(X, dtype=float), np.nan), dtype=float, order="C"
+            )
+        else:
+            x = np.array(X, dtype=float, order="C")
+    except (TypeError, ValueError) as error:
+        raise SignkinError(
+            f"the data are not an array of numbers ({error})",
+            file=name,
+            expected="(bins, dimensions)",
+        ) from None
+    if x.ndim == 1:
+        x = x[:, np.newaxis]
+    if x.ndim != 2 or x.shape[0] < least_bins or x.shape[1] < 1:
+        raise SignkinError(
+            f"the data have shape {np.shape(X)}",
+            file=name,
+            expected=f"(bins, dimensions) with {least_bins} bins or more",
+        )
+    bad = ~np.isfinite(x).all(axis=1)
+    if bad.any():
+        raise SignkinError(
+            f"{int(bad.sum())} bins have no value",
+            file=name,
+            place=f"bin {int(np.argmax(bad))}",
+            expected="finite values; fill or cut out gaps first",
+        )
+    wanted = _orders(orders, name)
+    if max(wanted) >= x.shape[0]:
+        raise SignkinError(
+            f"order {max(wanted)} with {x.shape[0]} bins",
+            file=name,
+            expected="more bins than the order",
+            todo="Leave out the high orders, or take more bins.",
+        )
+    return x, wanted
+
+
+def _orders(orders: object, name: str) -> tuple[int, ...]:
+    expected = f"different orders from 0 to {HIGHEST_ORDER}, as (0, 1, 3)"
+    try:
+        given = [float(order) for order in orders]  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise SignkinError(f"the orders are {orders!r}", file=name, expected=expected) from None
+    wanted = tuple(int(order) if order.is_integer() else -1 for order in given)
+    if (
+        not wanted
+        or min(wanted) < 0
+        or max(wanted) > HIGHEST_ORDER
+        or len(set(wanted)) < len(wanted)
+    ):
+        raise SignkinError(f"the orders are {orders!r}", file=name, expected=expected)
+    return wanted
+
+
+def _a_prior(prior: object, name: str) -> Prior:
+    if isinstance(prior, Prior):
+        return prior
+    raise SignkinError(
+        "no prior" if prior is None else f"the prior is {prior!r:.60}",
+        file=name,
+        expected="Prior(noise_sd=...)",
+    )
+
+
+def _positive(value: Any, what: str, name: str) -> float:
+    if isinstance(value, (int, float, np.number)) and 0 < value < np.inf:
+        return float(value)
+    raise SignkinError(f"{what} is {value!r}", file=name, expected="a number above 0")
+
+
+def _whole(value: Any, what: str, least: int, name: str) -> int:
+    try:
+        whole = int(value)
+        if whole == value and whole >= least:
+            return whole
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise SignkinError(
+        f"{what} is {value!r}", file=name, expected=f"a whole number from {least}"
+    ) from None
+
+
+def _each(values: Any, what: str, n: int) -> list[Any]:
+    if isinstance(values, str) or not hasattr(values, "__len__") or len(values) != n:
+        raise SignkinError(
+            f"{what} is {values!r:.60}", place="fit_many", expected=f"one for all, or {n}"
+        )
+    return list(values)

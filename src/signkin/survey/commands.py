@@ -1,0 +1,114 @@
+"""`signkin corpus list` and `signkin corpus check`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+
+from signkin.errors import SignkinError
+
+RECORDINGS = 100
+LINES = 12
+EXAMPLES = """examples:
+  signkin corpus list
+  signkin corpus check boston104 --data ~/recordings
+  signkin corpus check corpora/mine --all
+"""
+
+
+def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add `corpus` with its own commands to the command line."""
+    corpus = commands.add_parser(
+        "corpus", help="look at corpora before a run", epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    what = corpus.add_subparsers(dest="what", required=True)
+    listing = what.add_parser("list", help="the corpora of this folder, and what each is good for")
+    check = what.add_parser("check", help="what is suspicious in a corpus, and what to do first")
+    check.add_argument("corpus", help="a corpus of this folder, or the folder of one")
+    check.add_argument("--recordings", type=int, default=RECORDINGS,
+                       help=f"look at so many, evenly over the list ({RECORDINGS})")  # fmt: skip
+    check.add_argument("--all", action="store_true", help="look at all recordings")
+    check.add_argument("--out", type=Path, help="folder of the page and tables "
+                       "(results/check/<corpus>)")  # fmt: skip
+    for parser in (listing, check):
+        parser.add_argument("--data", help="folder of the real recordings (else SIGNKIN_DATA)")
+
+
+def run_corpus(told: argparse.Namespace) -> int:
+    """Run one of the commands; returns 1 where something is wrong."""
+    try:
+        return list_corpora(told.data) if told.what == "list" else check_corpus(told)
+    except SignkinError as error:
+        print(f"signkin: {error}", file=sys.stderr)
+        return 1
+
+
+def _corpora_folder() -> Path:
+    from signkin.checkout import workflow_home
+
+    own = Path("corpora")
+    return own if own.is_dir() else workflow_home() / "corpora"
+
+
+def list_corpora(data: str | None) -> int:
+    """Print a line a corpus."""
+    from signkin.corpus import data_dir_of, data_folder, load_corpora
+
+    for name, corpus in load_corpora(_corpora_folder()).items():
+        there = data_folder(corpus, data or data_dir_of(None), Path("results")) is not None
+        kinds = [
+            word
+            for word, yes in (
+                ("sign tags", corpus.tagged), ("single signs", corpus.single_signs),
+                ("simulated", corpus.simulator is not None),
+            )
+            if yes
+        ]  # fmt: skip
+        state = "made by the run" if corpus.simulator else "there" if there else "no data"
+        print(f"{name:14s} {len(corpus.entries):5d} recordings  {state:15s} "
+              f"{', '.join(kinds) or 'no tags':26s} {corpus.settings['language']}")  # fmt: skip
+    return 0
+
+
+def check_corpus(told: argparse.Namespace) -> int:
+    """Look at a corpus, write the page and the tables, print what to do first."""
+    from signkin.corpus import check_files, data_dir_of, data_folder, load_corpora, load_corpus
+    from signkin.report.page import render
+    from signkin.survey.look import look_at
+    from signkin.survey.page import look_page
+    from signkin.tables import write_table
+
+    given = Path(told.corpus)
+    if (given / "corpus.yaml").is_file():
+        corpus = load_corpus(given)
+    else:
+        corpus = load_corpora(_corpora_folder(), [told.corpus])[told.corpus]
+    if told.recordings < 1:
+        raise SignkinError(f"--recordings {told.recordings}", expected="a whole number from 1")
+    folder = data_folder(corpus, told.data or data_dir_of(None), Path("results"))
+    if folder is None or not folder.is_dir():
+        raise SignkinError(
+            f"the recordings of {corpus.name} are not there", place="data",
+            expected=f"a folder {corpus.settings.get('data_folder', corpus.name)}",
+            todo="Give --data, or set SIGNKIN_DATA.",
+        )  # fmt: skip
+    check_files(corpus, folder)
+    look = look_at(corpus, folder, None if told.all else told.recordings)
+    out = told.out or Path("results") / "check" / corpus.name
+    out.mkdir(parents=True, exist_ok=True)
+    write_table(look.checks, out / "checks.csv", "corpus_checks")
+    write_table(look.recordings, out / "recordings.csv", "corpus_recordings")
+    (out / "index.html").write_text(render(look_page(look, out), out), encoding="utf-8")
+    levels = Counter(look.checks["level"])
+    counts = ", ".join(f"{levels[level]} {level}" for level in ("wrong", "look", "fine"))
+    print(f"{corpus.name}: {look.read} of {look.asked} recordings read ({look.total} in all)")
+    print(f"Checks: {counts}.")
+    for i, line in enumerate(look.first[:LINES]):
+        print(f"{i + 1:3d}. {line}")
+    if len(look.first) > LINES:
+        print(f"     and {len(look.first) - LINES} more on the page")
+    print(f"The page: {out / 'index.html'}")
+    return 1 if look.wrong else 0
