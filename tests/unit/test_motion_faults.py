@@ -584,3 +584,28 @@ def test_a_file_of_something_else_is_one_sentence(tmp_path, name):
     told(path, "there is no such file", format=made.format, **made.spec)
     path.mkdir()
     told(path, "folder", format=made.format, **made.spec)
+
+
+def test_one_marker_under_two_names_is_one_joint(tmp_path):
+    path, spec = sample("c3d", tmp_path)
+    joints = {"right_wrist": "Anna:right_wrist", "left_wrist": "right_wrist"}
+    told(path, "'Anna:right_wrist' stands twice, for right_wrist and left_wrist",
+         **{**spec, "joints": joints})  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [{"up": 5}, {"right": None}, {"format": ["bvh"]}, {"joints": {"right_wrist": ["a"]}},
+     {"unit": object()}, {"encoding": 5}, {"part": 3.5}, {"rate_hz": [50]}, {"clock": 5}],
+)  # fmt: skip
+def test_declarations_of_another_kind_are_told_too(tmp_path, spec):
+    path, good = sample("bvh", tmp_path)
+    good["part"] = "1"
+    told(path, str(path), **{**good, **spec})
+
+
+def test_a_bvh_of_very_many_joints_is_refused_at_once(tmp_path):
+    path = tmp_path / "m.bvh"
+    joints = "".join(f"JOINT j{i} {{ OFFSET 0 0 0\n" for i in range(100_000))
+    path.write_text("HIERARCHY\nROOT r { OFFSET 0 0 0 CHANNELS 0\n" + joints + "}" * 100_001)
+    told(path, "more than 5000 joints", unit="m")
