@@ -143,7 +143,7 @@ def read_recording(
     folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
     source = _guarded(wanted, path, folders, joints=joints, part=part, **options)
     try:
-        _refuse_infinite(source)
+        _check_positions(source)
         scale, final_unit = _scale(source.unit, unit)
         basis = axis_basis(up, right)
         rate, rate_notes = _agreed_rate(source, rate_hz)
@@ -213,8 +213,12 @@ def _check_options(
         )
 
 
-def _refuse_infinite(source: SourceMotion) -> None:
+def _check_positions(source: SourceMotion) -> None:
     """Refuse what is no coordinate, before the axes are turned: infinity times 0 is a gap."""
+    if len(source.positions) < 2:
+        raise SignkinError(
+            f"{len(source.positions)} frames", place="frames", expected="2 frames or more"
+        )
     with np.errstate(invalid="ignore"):
         bad = np.abs(source.positions) > FURTHEST
     if bad.any():
