@@ -85,8 +85,7 @@ def _told(name: str) -> Iterator[str]:
         table = about.example["table"]
         yield from (f"        {table}: {line}" for line in about.table.splitlines())
     yield f"        {as_yaml(name)}"
-    if command := as_command(name):
-        yield f"        {command}"
+    yield f"        {as_command(name)}"
 
 
 def arguments_of(name: str) -> list[str]:
@@ -105,16 +104,14 @@ def as_yaml(name: str) -> str:
 
 
 def as_command(name: str) -> str:
-    """Return the example of a check as a command; nothing where it wants lists of lists."""
+    """Return the example of a check as a command; `;` parts lists of lists."""
     words = [f"signkin audit check {name}"]
     for key, value in ABOUT[name].example.items():
-        if isinstance(value, dict) or (
-            isinstance(value, list) and any(isinstance(v, list) for v in value)
-        ):
-            return ""
-        text = ",".join(value) if isinstance(value, list) else str(value).lower() if isinstance(
-            value, bool) else str(value)  # fmt: skip
-        words.append(f"--{key} '{text}'" if set(text) & set(" <>*()&|,'") else f"--{key} {text}")
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        if isinstance(value, list):
+            nested = [",".join(v) if isinstance(v, list) else v for v in value]
+            text = (";" if any(isinstance(v, list) for v in value) else ",").join(nested)
+        words.append(f"--{key} '{text}'" if set(text) & set(" <>*()&|;") else f"--{key} {text}")
     return " ".join(words)
 
 

@@ -255,6 +255,7 @@ def _typed(name: str, value: Any, hint: str) -> Any:
         parts = value.split(",") if isinstance(value, str) else value
         parts = parts if isinstance(parts, list | tuple) else [parts]
         if hint.count("Sequence") == 2:
+            parts = value.split(";") if isinstance(value, str) else parts
             return [_typed(name, part, hint.replace("Sequence", "", 1)) for part in parts]
         return [_word(name, part) for part in parts]
     if hint == "<class 'float'>":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -66,7 +66,7 @@ def rows_of(
             )  # fmt: skip
 
 
-def each(rows: Iterator[Row], judge: Callable[[Row], Finding]) -> list[Finding]:
+def each(rows: Iterable[Row], judge: Callable[[Row], Finding]) -> list[Finding]:
     """Return a finding for each row; a row that cannot be used is told, and the others go on."""
     out = []
     for row in rows:

@@ -359,7 +359,7 @@ def _left_out(
 
 @on_print(
     "means and SDs",
-    {"mean": "4.50", "sd": "2.10", "n": "20", "grain": "1", "low": "1", "high": "5"},
+    {"mean": "4.50", "sd": "2.09", "n": "20", "grain": "1", "low": "1", "high": "5"},
     outcome=INCONSISTENT,
 )
 def range_possible(
