@@ -21,6 +21,7 @@ from typing import Any
 
 from signkin.audit import checks as _registered  # noqa: F401 (importing them registers them)
 from signkin.audit.findings import INCONSISTENT, Finding, summary
+from signkin.audit.init import init
 from signkin.audit.paper import Check, Claim, Paper
 from signkin.audit.registry import ABOUT, PUBLISHED, OnPrint, run
 from signkin.errors import SignkinError, listed
@@ -38,6 +39,8 @@ def main(arguments: Sequence[str], audit_papers: AuditPapers) -> int:
             return list_checks(arguments[1:])
         if first == "check":
             return one_check(arguments[1:])
+        if first == "init":
+            return init(arguments[1:])
         return audit_papers(_papers(arguments))
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)

@@ -58,7 +58,10 @@ def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Find
     readings: (what is read so, the check), the usual one first. The finding is that of the first
     reading that allows the print; if it is not the usual one, it names all that do.
     """
-    tried = [(name, check()) for name, check in readings]
+    first = readings[0][1]()
+    if first.verdict == CONSISTENT:
+        return first
+    tried = [(readings[0][0], first), *((name, check()) for name, check in readings[1:])]
     for verdict in (CONSISTENT, UNDECIDABLE):
         fitting = [(name, f) for name, f in tried if f.verdict == verdict]
         if fitting and (verdict == UNDECIDABLE or fitting[0][0] != tried[0][0]):

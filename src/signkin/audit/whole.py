@@ -17,7 +17,7 @@ from math import isqrt
 
 from signkin.audit.rounding import Interval
 
-MOST_STEPS = 30_000  # of one question; beyond it the answer is that there is none
+MOST_STEPS = 12_000  # of one question; beyond it the answer is that there is none
 ALWAYS = 16  # so many numbers have every sum of squares
 FREE = 60  # numbers searched one by one; further ones are set aside
 Pair = tuple[int, int]
