@@ -240,7 +240,11 @@ def welch(of: Sequence[Group]) -> Test:
     box, middle = _box(of)
     statistic = _searched(lambda x: parts(x)[0], middle, box)
     df2 = _searched(lambda x: parts(x)[1], middle, box)
-    p = _searched(lambda x: float(stats.f.sf(parts(x)[0], len(n) - 1, parts(x)[1])), middle, box)
+    top = len(n) - 1
+    corners = [float(stats.f.sf(f, top, df)) for f in (statistic.low, statistic.high)
+               for df in (df2.low, df2.high)]  # fmt: skip
+    hand = float(stats.f.sf(statistic.value, top, df2.value))
+    p = Range(hand, min(hand, *corners), max(hand, *corners))
     return Test("Welch's ANOVA", statistic, len(n) - 1, df2, p)
 
 
