@@ -14,7 +14,7 @@ from signkin.audit.rounding import allowed, count, exactly
 from signkin.audit.summaries import Range
 from signkin.errors import SignkinError
 
-MOST_STATES = 300_000  # of the exact distribution; larger designs have chi-squared
+MOST_STATES = 40_000  # of the exact distribution; larger designs have chi-squared
 
 
 def _h(sums: Sequence[int], sizes: Sequence[int]) -> float:

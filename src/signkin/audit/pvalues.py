@@ -101,13 +101,16 @@ def _want(kind: str, df: Sequence[Number]) -> None:
         )
 
 
+def _is_whole(df: Number) -> bool:
+    """Whether degrees of freedom are printed whole (`2`); `2.0` is a rounded number."""
+    return float(df).is_integer() if isinstance(df, float) else "." not in str(df)
+
+
 def _df_ends(df: Number, whole_too: bool, rounding: str) -> tuple[float, ...]:
     """Return the ends of what printed degrees of freedom allow; whole ones stand as they are."""
-    text = str(df)
-    if float(exactly(text)).is_integer() and not whole_too:
-        return (float(exactly(text)),)
-    values = allowed(text if "." in text and not text.endswith(".0") else str(int(float(text))),
-                     rounding)  # fmt: skip
+    if _is_whole(df) and not whole_too:
+        return (float(exactly(str(df))),)
+    values = allowed(f"{df:g}" if isinstance(df, float) else str(df), rounding)
     return max(float(values.low), 1e-6), float(values.high)
 
 
@@ -185,7 +188,7 @@ def p_agrees(
     sides = {"open": ("two", "one", "other"), "two": ("two",), "one": ("one", "other")}[tails]
     sides = sides if kind in SIGNED else ("two",)
     names = {"two": "two-tailed", "one": "one-tailed", "other": "one-tailed, the other way"}
-    whole = kind in ("t", "F") and float(exactly(str(df[-1]))).is_integer()
+    whole = kind in ("t", "F") and _is_whole(df[-1])
     readings = []
     for side in sides:
         for rounded in (False, True) if whole else (False,):

@@ -17,7 +17,7 @@ from math import isqrt
 
 from signkin.audit.rounding import Interval
 
-MOST_STEPS = 12_000  # of one question; beyond it the answer is that there is none
+MOST_STEPS = 8_000  # of one question; beyond it the answer is that there is none
 ALWAYS = 16  # so many numbers have every sum of squares
 FREE = 60  # numbers searched one by one; further ones are set aside
 Pair = tuple[int, int]
@@ -240,7 +240,7 @@ def pairs_allowed(
             most = most_squares(n, total, bottom, top)
             squares = squares[: max(0, (most - squares[0]) // 2 + 1)]
         for found in _outwards(squares):
-            own = Steps(min(steps.left, MOST_STEPS // 10))
+            own = Steps(min(steps.left, MOST_STEPS // 8))
             before = own.left
             answer = possible(n, total, found, low, high, own)
             steps.take(1 + before - max(own.left, 0))

@@ -56,6 +56,8 @@ def correlation_matrix(context: OnPrint, table: str) -> list[Finding]:
         # No matrix within rounding has a smallest eigenvalue above this one (Weyl).
         reach = smallest + float(np.linalg.eigvalsh(half)[-1]) + 1e-9
         verdict = CONSISTENT if smallest >= 0 else INCONSISTENT if reach < 0 else UNDECIDABLE
+        if len(names) == 3 and not bad:  # of three variables the first rule says all
+            verdict = CONSISTENT
         why = f"the smallest eigenvalue is {smallest:.4g}, and at most {reach:.4g} within rounding"
         out.append(Finding(verdict, why, f"{len(names)} variables", f"{smallest:.4g}",
                            f"up to {reach:.4g}", source, "all"))  # fmt: skip
