@@ -96,9 +96,23 @@ def possible(
     try:
         if n <= FREE:
             return next(multisets(n, total, squares, bottom, top, steps), None) is not None
-        return True if _set_aside(n, total, squares, bottom, top, steps) else None
+        windows = _windows(n, total, squares, bottom, top)
+        found = any(_set_aside(n, total, squares, *window, steps) for window in windows)
+        return True if found else None
     except TooLong:
         return None
+
+
+def _windows(n: int, total: int, squares: int, low: int, high: int) -> Iterator[tuple[int, int]]:
+    """Yield bounds around the mean within the given ones: what fits in them fits in those."""
+    mean = total // n
+    sd = isqrt(max(0, n * squares - total * total)) // n + 1
+    for times in (2, 4):
+        bottom, top = max(low, mean - times * sd), min(high, mean + times * sd)
+        inside = bottom < top and n * bottom <= total <= n * top
+        if inside and squares <= most_squares(n, total, bottom, top):
+            yield bottom, top
+    yield low, high
 
 
 def _set_aside(n: int, total: int, squares: int, low: int, high: int, steps: Steps) -> bool:
