@@ -189,6 +189,12 @@ def test_what_a_paper_leaves_open_is_tried_and_named():
     assert one.verdict == "consistent"
     assert "only read as one-tailed" in one.why
     assert p_agrees("t", "2.31", [18], ".016", tails="two").verdict == "inconsistent"
+    hangs = p_agrees("t", "1.74", [24], ".047")  # .0947 two-tailed
+    assert hangs.verdict == "consistent"
+    assert hangs.severity == "the decision changes if read as two-tailed"
+    assert "disagree about 0.05" in hangs.why
+    assert p_agrees("z", "2.79", [], "n.s.").verdict == "inconsistent"
+    assert p_agrees("t", "-0.23", [193], ".591").verdict == "consistent"  # the other way
     # 2 * pt(-4.3, 2.4) = .0364; with 2 printed, Student's p is .0500
     whole = p_agrees("t", "4.30", ["2"], ".036", tails="two")
     assert whole.verdict == "consistent"

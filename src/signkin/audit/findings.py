@@ -69,7 +69,11 @@ def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Find
             why = f"{fitting[0][1].why}; only read as {names}"
             if verdict == CONSISTENT:
                 why += f" (as {tried[0][0]} not: {tried[0][1].why})"
-            return replace(fitting[0][1], why=why if len(tried) > 1 else fitting[0][1].why)
+            severity = fitting[0][1].severity
+            if first.severity == DECISION:
+                severity = f"{DECISION} if read as {tried[0][0]}"
+            why = why if len(tried) > 1 else fitting[0][1].why
+            return replace(fitting[0][1], why=why, severity=severity)
         if fitting:
             return fitting[0][1]
     usual = tried[0][1]

@@ -187,6 +187,8 @@ def p_agrees(
     _want(kind, df)
     sides = {"open": ("two", "one", "other"), "two": ("two",), "one": ("one", "other")}[tails]
     sides = sides if kind in SIGNED else ("two",)
+    if tails == "open" and wanted.sign != "=":  # against its prediction any statistic is `ns`
+        sides = tuple(side for side in sides if side != "other")
     names = {"two": "two-tailed", "one": "one-tailed", "other": "one-tailed, the other way"}
     whole = kind in ("t", "F") and _is_whole(df[-1])
     readings = []
