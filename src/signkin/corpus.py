@@ -21,6 +21,7 @@ import jsonschema
 import yaml
 
 from signkin import joints as joint_names
+from signkin.annotation import TierWish, tier_key
 from signkin.errors import SignkinError, listed
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
@@ -36,6 +37,8 @@ class Entry:
 
     sign, repetition: the gloss of a recording that holds one sign and the number of this
     repetition, from 1; empty and None for a recording of continuous signing.
+    from_s, to_s: the stretch of the annotation's time that the recording is, where the
+    annotation is that of a longer one; clock_offset_s: added to the annotation's times besides.
     """
 
     recording: str
@@ -46,6 +49,9 @@ class Entry:
     line: int
     sign: str = ""
     repetition: int | None = None
+    from_s: float = 0.0
+    to_s: float | None = None
+    clock_offset_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -92,6 +98,11 @@ class Corpus:
         return all(entry.sign for entry in self.entries)
 
     @property
+    def skips(self) -> bool:
+        """Whether a recording that cannot be used is left out instead of ending the run."""
+        return bool(self.settings.get("on_error", "stop") == "skip")
+
+    @property
     def noise_sd(self) -> float:
         """Standard deviation of the device's noise in the unit after reading (m or px)."""
         return float(self.settings["noise_sd"])
@@ -127,25 +138,59 @@ class Corpus:
     def annotation_spec(self, entry: Entry) -> dict[str, Any]:
         """Return the arguments of `read_annotation` for one recording."""
         annotation = self.settings["annotation"]
+        wishes = {tier_key(w): w for own in self.tiers_of(entry).values() for w in own.values()}
         return {
             "format": annotation.get("format"),
-            "tiers": tuple(dict.fromkeys(self.tiers.values())),
+            "tiers": tuple(wishes.values()),
             "name": entry.recording,
             "part": entry.part or None,
+            "gloss": annotation.get("gloss"),
+            "from_s": entry.from_s,
+            "to_s": entry.to_s,
+            "clock_offset_s": entry.clock_offset_s,
             **annotation.get("options", {}),
         }
 
     @property
-    def tiers(self) -> dict[str, str]:
-        """Tier of each role: sign, and utterance and translation where the corpus names them."""
+    def tiers(self) -> dict[str, Any]:
+        """Tiers of each role: sign, and utterance and translation where the corpus names them."""
         annotation = self.settings.get("annotation", {})
-        roles = ("sign", "utterance", "translation")
-        return {r: annotation[f"{r}_tier"] for r in roles if annotation.get(f"{r}_tier")}
+        out = {"sign": annotation.get("sign_tiers") or annotation.get("sign_tier")}
+        for role in ("utterance", "translation"):
+            out[role] = annotation.get(f"{role}_tier")
+        return {role: wanted for role, wanted in out.items() if wanted}
+
+    def tiers_of(self, entry: Entry) -> dict[str, dict[str, TierWish]]:
+        """Return, for each role, the tiers of one recording by hand (`both` where none is told).
+
+        `{signer}`, `{recording}` and `{part}` in a name stand for the recording's own.
+        """
+        out: dict[str, dict[str, TierWish]] = {}
+        for role, wanted in self.tiers.items():
+            by_hand = wanted if _is_by_hand(wanted) else {"both": wanted}
+            out[role] = {hand: _filled(wish, entry) for hand, wish in by_hand.items()}
+        return out
+
+    def dominant_hand(self, entry: Entry) -> str:
+        """Return `left` for signers whom the corpus calls left-handed, else `right`."""
+        return "left" if entry.signer in self.settings.get("left_handed", ()) else "right"
 
     def files(self) -> list[str]:
         """Return the data files of all recordings, each once, in order."""
         names = [n for e in self.entries for n in (e.motion, e.annotation) if n]
         return list(dict.fromkeys(names))
+
+
+def _is_by_hand(wanted: Any) -> bool:
+    return isinstance(wanted, Mapping) and not {"pattern", "participant"} & set(wanted)
+
+
+def _filled(wish: TierWish, entry: Entry) -> TierWish:
+    if isinstance(wish, Mapping):
+        return {key: str(_filled(value, entry)) for key, value in wish.items()}
+    for key in ("signer", "recording", "part"):
+        wish = wish.replace(f"{{{key}}}", getattr(entry, key))
+    return wish
 
 
 def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corpus]:
@@ -167,6 +212,7 @@ def load_corpus(folder: Path) -> Corpus:
     checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
+    _check_shared_tables(settings["motion"], entries, folder / "recordings.csv")
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     return Corpus(folder.name, folder, settings, entries, signs)
@@ -176,6 +222,16 @@ def _given(content: dict[str, Any]) -> dict[str, Any]:
     """Return a mapping without the keys that are null, which say the same as none."""
     inner = {k: _given(v) if isinstance(v, dict) else v for k, v in content.items()}
     return {k: v for k, v in inner.items() if v is not None}
+
+
+def _not_utf8(path: Path, error: UnicodeDecodeError) -> SignkinError:
+    return SignkinError(
+        f"byte 0x{error.object[error.start]:02x} is not UTF-8",
+        file=path,
+        place=f"line {error.object[: error.start].count(10) + 1}",
+        expected="text in UTF-8",
+        todo="Save the file as UTF-8.",
+    )
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
@@ -230,6 +286,8 @@ def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, st
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    except UnicodeDecodeError as error:
+        raise _not_utf8(path, error) from error
     seen: dict[str, int] = {}
     reader = csv.DictReader(text.splitlines(), strict=True)
     for row in reader:
@@ -279,9 +337,28 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
             line=line,
             sign=sign,
             repetition=repetition,
+            from_s=float(row.get("from_s") or 0),
+            to_s=float(row["to_s"]) if row.get("to_s") else None,
+            clock_offset_s=float(row.get("clock_offset_s") or 0),
         )
     if not count:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
+
+
+def _check_shared_tables(motion: Mapping[str, Any], entries: tuple[Entry, ...], file: Path) -> None:
+    """Refuse two recordings of one table that nothing tells apart: each would be all of it."""
+    if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
+        return
+    parts: dict[str, Entry] = {}
+    for entry in entries:
+        first = parts.setdefault(entry.motion, entry)
+        if first.part != entry.part:
+            raise SignkinError(
+                f"{entry.recording} and {first.recording} are parts of {entry.motion}",
+                file=file,
+                place=f"line {entry.line}",
+                expected="motion.options.recording_column in corpus.yaml, which tells them apart",
+            )
 
 
 def _check_repetition(
@@ -338,16 +415,46 @@ def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> P
 
 
 def check_files(corpus: Corpus, folder: Path) -> None:
-    """Refuse a corpus whose data folder lacks a file that recordings.csv names."""
+    """Refuse a corpus whose data folder lacks a file that recordings.csv names, or leads out of it.
+
+    Where the corpus says `on_error: skip`, that is found when the recording is read.
+    """
+    if corpus.skips:
+        return
     for entry in corpus.entries:
         for name in (entry.motion, entry.annotation):
-            if name and not (folder / name).is_file():
-                raise SignkinError(
-                    f"there is no file {folder / name}",
-                    file=corpus.folder / "recordings.csv",
-                    place=f"line {entry.line}",
-                    expected="the recording's file in the data folder",
-                )
+            if name:
+                data_file(corpus, folder, entry, name)
+
+
+def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
+    """Return the path of a recording's file: one that is there, in the data folder.
+
+    A path that climbs out of the folder, and a link that leads out of it or nowhere, are errors:
+    recordings.csv may come from anywhere.
+    """
+    path = folder / name
+    try:
+        there = path.is_file() or path.is_dir()
+        outside = not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError) as error:  # links in a ring, zero bytes
+        there, outside, path = False, False, Path(f"{folder}/{name!r} ({type(error).__name__})")
+    if outside:
+        raise SignkinError(
+            f"{name} leads out of the data folder {folder}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="a file below it",
+            todo="Copy or link the files into the data folder itself.",
+        )
+    if not there:
+        raise SignkinError(
+            f"there is no file {path}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="the recording's file in the data folder",
+        )
+    return path
 
 
 def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
@@ -355,7 +462,7 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
     expected = corpus.settings.get("checksums", {}).get(name)
     if expected is None:
         return
-    found = hashlib.sha256((folder / name).read_bytes()).hexdigest()
+    found = _digest(folder / name)
     if found != expected:
         raise SignkinError(
             f"the SHA-256 of {name} is {found}",
@@ -364,6 +471,17 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
             expected=expected,
             todo="Get the file again, or correct the checksum if the change is meant.",
         )
+
+
+def _digest(path: Path) -> str:
+    """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
+    if not path.is_dir():
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    whole = hashlib.sha256()
+    for file in sorted(path.iterdir()):
+        if file.is_file():
+            whole.update(f"{file.name}\0{hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    return whole.hexdigest()
 
 
 def data_dir_of(data_dir: str | None) -> str | None:

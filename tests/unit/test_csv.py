@@ -44,7 +44,8 @@ def test_empty_cells_are_gaps(two):
         ({"joints": {"right_wrist": ["rx", "rz"]}}, r"no column 'rz'"),
         ({"joints": {"right_wrist": "rx"}}, r"right_wrist has the columns 'rx'"),
         ({"joints": None}, r"no joint map"),
-        ({"rate_hz": None}, r"the rate is missing"),
+        ({"rate_hz": None, "frame_column": "frame"}, r"the rate is missing"),
+        ({}, r"line 3: frame 9 follows 10; .*frame_column: frame"),
     ],
 )
 def test_bad_declarations_are_refused(two, change, told):
@@ -100,7 +101,7 @@ def test_words_want_an_end_after_the_start_and_a_known_unit(tmp_path):
     path = table(tmp_path, WORDS.replace("18,50", "18,17"))
     with pytest.raises(SignkinError, match=r"line 3: 'WRITE' runs from 0.600 s to 0.567 s"):
         read_annotation(path, part="1", tiers=("word",), **COLUMNS)
-    with pytest.raises(SignkinError, match="the time unit is 'min'; expected s, ms or frames"):
+    with pytest.raises(SignkinError, match="the time unit is 'min'; expected s, ms, frames"):
         read_annotation(path, part="1", **{**COLUMNS, "time_unit": "min"})
     with pytest.raises(SignkinError, match="times in frames, no rate"):
         read_annotation(path, part="1", **{**COLUMNS, "rate_hz": None})

@@ -1,3 +1,4 @@
+import time
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -148,7 +149,7 @@ def test_media_that_start_apart_want_a_choice(tmp_path):
 def test_a_file_that_is_no_eaf_is_refused(tmp_path):
     path = tmp_path / "x.eaf"
     path.write_text("<A></B>")
-    with pytest.raises(SignkinError, match="not readable as an ELAN file"):
+    with pytest.raises(SignkinError, match=r"x.eaf, line 1.*not well-formed XML .*an .eaf that"):
         read_annotation(path)
 
 
@@ -219,10 +220,22 @@ def test_written_files_are_the_same_bytes_and_read_back(tmp_path):
     assert spans(a, "sign") == [("A", 0.1, 0.5), ("B", 1, 2)]
 
 
-def test_an_encoding_that_is_not_utf8_is_refused(nested):
-    content = nested.read_bytes().replace(b"UTF-8", b"ISO-8859-1")
-    with pytest.raises(SignkinError, match="the file is written in ISO-8859-1"):
-        insert_tiers(content, NEW)
+@pytest.mark.parametrize("encoding", ["ISO-8859-1", "windows-1252", "US-ASCII", "UTF-16", "UTF-8"])
+def test_a_file_keeps_its_encoding(nested, encoding):
+    text = (
+        nested.read_text()
+        .replace("UTF-8", encoding)
+        .replace("<ANNOTATION_VALUE>A<", "<ANNOTATION_VALUE>Ä<")
+    )
+    before = text.encode(encoding, "xmlcharrefreplace")
+    new = [NewTier("signkin Größe ☺", (Interval(0.11, 0.43, "Ä ☺", "r"),))]
+    after = insert_tiers(before, new)
+    assert insert_tiers(after, new) == after
+    nested.write_bytes(after)
+    a = read_annotation(nested)
+    assert spans(a, "signkin Größe ☺") == [("Ä ☺", 0.11, 0.43)]
+    assert spans(a, "Sign") == [("Ä", 0.1, 0.4), ("B", 0.7, 1.0)]
+    assert ET.parse(nested).getroot().tag == "ANNOTATION_DOCUMENT"
 
 
 def test_self_closed_elements_right_before_a_closing_tag(nested):
@@ -231,3 +244,174 @@ def test_self_closed_elements_right_before_a_closing_tag(nested):
     )
     nested.write_bytes(insert_tiers(content, NEW))
     assert len(read_annotation(nested).tiers) == 5
+
+
+# --- files as they are ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "bomb",
+    [
+        '<!DOCTYPE a [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;&a;&a;">]>',
+        '<!DOCTYPE a [<!ENTITY x SYSTEM "file:///etc/passwd">]>',
+        '<!DOCTYPE a [<!ENTITY % p SYSTEM "http://127.0.0.1/p">%p;]>',
+        '<!DOCTYPE a SYSTEM "file:///nowhere.dtd">',
+    ],
+)
+def test_entities_are_refused_in_one_sentence_and_nothing_is_fetched(nested, bomb):
+    text = nested.read_text().replace("?>\n", f"?>\n{bomb}\n", 1).replace(">A<", ">&b;<", 1)
+    nested.write_text(text)
+    with pytest.raises(SignkinError, match=r"line \d+: the file declares or uses an entity"):
+        read_annotation(nested)
+    with pytest.raises(SignkinError, match="the file declares or uses an entity"):
+        insert_tiers(text.encode(), NEW)
+
+
+def test_a_name_for_the_schema_alone_is_no_entity(nested):
+    text = nested.read_text().replace("?>\n", '?>\n<!DOCTYPE ANNOTATION_DOCUMENT SYSTEM "x">\n', 1)
+    nested.write_text(text)
+    assert len(read_annotation(nested).tier("Sign")) == 2
+
+
+def test_an_id_used_twice_loses_nothing_unless_a_child_asks_for_it(tmp_path):
+    slots = {"ts1": 100, "ts2": 400, "ts3": 700, "ts4": 1000}
+    body = aligned("a1", "ts1", "ts2", "A") + aligned("a1", "ts3", "ts4", "B")
+    path = eaf(
+        tmp_path, slots,
+        tier("S", body) + tier("C", referring("a1", "a1", "c"), "S", "child"),
+    )  # fmt: skip
+    assert [label for label, *_ in spans(read_annotation(path, tiers=("S",)), "S")] == ["A", "B"]
+    with pytest.raises(SignkinError, match=r"a1 is used twice \(lines \d+ and \d+\), and tier 'C'"):
+        read_annotation(path, tiers=("C",))
+
+
+def test_a_parent_is_looked_up_in_the_parent_tier_alone(tmp_path):
+    slots = {"ts1": 100, "ts2": 400, "ts3": 700, "ts4": 1000}
+    tiers = (
+        tier("Other", aligned("p", "ts3", "ts4", "O"))
+        + tier("P", aligned("p", "ts1", "ts2", "A"))
+        + tier("C", referring("p", "p", "c"), "P", "child")
+        + tier("D", referring("d", "x", "d"), "P", "child")
+    )
+    path = eaf(tmp_path, slots, tiers)
+    assert spans(read_annotation(path, tiers=("C",)), "C") == [("c", 0.1, 0.4)]
+    with pytest.raises(SignkinError, match="d refers to x, which is not on the tier 'P'"):
+        read_annotation(path, tiers=("D",))
+
+
+def test_tiers_that_hang_on_themselves_or_on_nothing_are_refused(tmp_path):
+    tiers = tier("A", referring("a", "b", "x"), "B", "child") + tier(
+        "B", referring("b", "a", "y"), "A", "child"
+    )
+    with pytest.raises(SignkinError, match="the tier is its own ancestor"):
+        read_annotation(eaf(tmp_path, {"ts1": 0}, tiers))
+    with pytest.raises(SignkinError, match="the parent tier 'B' is not there"):
+        read_annotation(eaf(tmp_path, {}, tier("A", referring("a", "b", "x"), "B", "child")))
+    with pytest.raises(SignkinError, match=r"tier 'A' stands in line \d+ already"):
+        read_annotation(eaf(tmp_path, {}, tier("A", "") + tier("A", "")))
+
+
+def test_an_open_slot_has_one_time_in_all_tiers(tmp_path):
+    """The parent's words share the phrase; a morpheme's open edge lies between those times."""
+    slots = {"ts1": 0, "o2": None, "ts2": 900, "o1": None, "m": None}
+    tiers = (
+        tier("Morph", aligned("m2", "m", "o1", "b") + aligned("m1", "ts1", "m", "a"), "Word")
+        + tier("Word", aligned("w3", "o2", "ts2", "C") + aligned("w1", "ts1", "o1", "A")
+               + aligned("w2", "o1", "o2", "B"), "Phrase")
+        + tier("Phrase", aligned("p", "ts1", "ts2", "p"))
+    )  # fmt: skip
+    a = read_annotation(eaf(tmp_path, slots, tiers), unaligned="interpolate")
+    assert spans(a, "Word") == [("A", 0, 0.3), ("B", 0.3, 0.6), ("C", 0.6, 0.9)]
+    assert spans(a, "Morph") == [("a", 0, 0.15), ("b", 0.15, 0.3)]
+    assert a.interpolated == 3
+
+
+def test_open_edges_that_do_not_touch_follow_time_order(tmp_path):
+    slots = {"ts1": 0, "o1": None, "o2": None, "ts2": 900, "ts3": 1000}
+    body = aligned("b", "o2", "ts2", "B") + aligned("a", "ts1", "o1", "A")
+    a = read_annotation(eaf(tmp_path, slots, tier("S", body)), unaligned="interpolate")
+    assert spans(a, "S") == [("A", 0, 0.3), ("B", 0.6, 0.9)]
+
+
+def test_one_bad_value_is_listed_and_the_others_are_read(tmp_path):
+    slots = {"ts1": 0, "ts2": "12.5", "ts3": 400, "ts4": 400, "ts5": 900, "ts6": "-5"}
+    body = (
+        aligned("a1", "ts1", "ts2", "A") + aligned("a2", "ts3", "ts4", "B")
+        + aligned("a3", "ts4", "ts5", "C") + aligned("a4", "ts6", "ts5", "D")
+    )  # fmt: skip
+    tiers = tier("S", body) + tier("E", referring("e1", "a1", "e") + referring("e3", "a3", "f"),
+                                   "S", "child")  # fmt: skip
+    a = read_annotation(eaf(tmp_path, slots, tiers))
+    assert spans(a, "S") == [("C", 0.4, 0.9)] and spans(a, "E") == [("f", 0.4, 0.9)]
+    told = [str(o) for o in a.left_out]
+    assert len(told) == 4
+    assert "annotation a1, line" in told[0] and "TIME_VALUE 12.5" in told[0]
+    assert "'B' has no length, at 0.400 s" in told[1]
+    assert "TIME_VALUE -5" in told[2]
+    assert "tier E" in told[3] and "its parent a1: slot ts2" in told[3]
+
+
+def linked(url, origin=None):
+    at = "" if origin is None else f' TIME_ORIGIN="{origin}"'
+    return f'<LINKED_FILE_DESCRIPTOR LINK_URL="{url}" MIME_TYPE="text/plain"{at}/>'
+
+
+def test_time_origin_of_linked_files_counts_and_media_are_known_by_address(tmp_path):
+    body = tier("S", aligned("a1", "ts1", "ts2", "A"))
+    slots = {"ts1": 100, "ts2": 400}
+
+    def offset(media, **options):
+        return read_annotation(eaf(tmp_path, slots, body, media), **options).clock_offset_s
+
+    assert offset(linked("file:///d/motion.csv", 1500)) == 1.5
+    both = media(0) + linked("file:///d/my%20motion.csv", 1500)
+    with pytest.raises(SignkinError, match=r"start at different times.*1500 ms.*clock_media"):
+        offset(both)
+    assert offset(both, clock_media="my motion.csv") == 1.5
+    assert offset(media(700) + linked("file:///d/x_tsconf.xml")) == 0.7  # no clock of its own
+    twins = media(0).replace("dir/v0.mp4", "file:///a/v.mp4") + media(900).replace(
+        "dir/v0.mp4", "file:///b/v.mp4"
+    )
+    with pytest.raises(SignkinError, match=r"several media are called 'v.mp4'"):
+        offset(twins, clock_media="v.mp4")
+    assert offset(twins, clock_media="file:///b/v.mp4") == 0.9
+    with pytest.raises(SignkinError, match=r"TIME_ORIGIN is '1.5'; expected whole milliseconds"):
+        offset(media("1.5"))
+
+
+def test_times_that_are_not_milliseconds_want_a_word(tmp_path):
+    path = eaf(tmp_path, {"ts1": 0, "ts2": 25}, tier("S", aligned("a1", "ts1", "ts2", "A")))
+    path.write_text(path.read_text().replace('"milliseconds"', '"PAL-frames"'))
+    with pytest.raises(SignkinError, match="TIME_UNITS is 'PAL-frames'; expected milliseconds"):
+        read_annotation(path)
+    assert spans(read_annotation(path, time_units="PAL-frames"), "S") == [("A", 0, 1.0)]
+    assert spans(read_annotation(path, time_units="milliseconds"), "S") == [("A", 0, 0.025)]
+
+
+def test_old_and_sparse_files_are_read(tmp_path):
+    """EAF 2.0 had no FORMAT, and much of the rest may be missing."""
+    path = tmp_path / "x.eaf"
+    path.write_text(
+        '<ANNOTATION_DOCUMENT DATE="2002" AUTHOR="" VERSION="2.0"><HEADER MEDIA_FILE="x.mpg" '
+        'TIME_UNITS="milliseconds"/><TIME_ORDER>' + slot("t", 100) + slot("u", 400)
+        + "</TIME_ORDER>" + tier("S", aligned("x", "t", "u", "A"))
+        + '<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="top"/></ANNOTATION_DOCUMENT>'
+    )  # fmt: skip
+    assert spans(read_annotation(path), "S") == [("A", 0.1, 0.4)]
+
+
+def test_a_hundred_thousand_annotations_take_time_as_they_are_many(tmp_path):
+    """Time grows with the number, not its square: ten times as many take less than thirty."""
+    path = tmp_path / "x.eaf"
+
+    def seconds(n):
+        own = [Interval(i, i + 0.9, "A", "S") for i in range(n)]
+        write_eaf(path, author="a", date="2020", media_url="v", tiers=[("S", None, own)])
+        start = time.process_time()
+        assert len(read_annotation(path).intervals) == n
+        return time.process_time() - start
+
+    seconds(1000)
+    small, large = seconds(10_000), seconds(100_000)
+    assert large < 20
+    assert large < 30 * small

@@ -150,5 +150,8 @@ rule endres2013:
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
         collect(rules.sensitivity.output, corpus=PLAN.single_signs),
         collect(rules.one_wrist.output, corpus=PLAN.continuous),
-        collect(rules.binning_elan.output, corpus=PLAN.with_elan),
+        collect(
+            rules.binning_elan.output,
+            corpus=[c for c in PLAN.tagged if c in PLAN.continuous],
+        ),
         rules.binning_scheme.output,

@@ -1,6 +1,7 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
 from signkin.exhibits import exhibits, files, of_groups
 from signkin.studies.naert2017.settings import (
+    DurationSettings,
     FigureSettings,
     GridSettings,
     SynthesisSettings,
@@ -119,6 +120,7 @@ rule write_elan:
     input:
         boundaries=rules.naert_tables.output.boundaries,
         about=rules.gather.output.recordings,
+        intervals=rules.gather.output.intervals,
         annotation=lambda w: PLAN.annotation_files(w.corpus),
     output:
         folder=directory("<results>/naert2017/{corpus}/eaf"),
@@ -126,6 +128,7 @@ rule write_elan:
         "<logs>/naert2017/{corpus}/elan.log",
     params:
         code=PLAN.digest("naert2017/elan.py"),
+        elan=lambda w: w.corpus in PLAN.with_elan,
         data=lambda w: str(PLAN.folders[w.corpus]),
     script:
         "../scripts/naert2017/elan.py"
@@ -158,7 +161,7 @@ rule naert2017:
     input:
         collect(rules.naert_tables.output, corpus=PLAN.tagged),
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
-        collect(rules.write_elan.output, corpus=PLAN.with_elan),
+        collect(rules.write_elan.output, corpus=PLAN.tagged),
         collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),
 
 
@@ -291,7 +294,7 @@ rule duration_statistics:
         code=PLAN.digest("naert2017/duration_statistics.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_statistics.py"
 
@@ -314,7 +317,7 @@ rule duration_models:
         code=PLAN.digest("naert2017/duration_models.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_models.py"
 
@@ -333,7 +336,7 @@ rule duration_surface:
     params:
         code=PLAN.digest("naert2017/duration_surface.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_surface.py"
 

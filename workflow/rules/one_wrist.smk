@@ -62,6 +62,7 @@ rule binning_elan:
     input:
         boundaries=rules.one_wrist.output.wrist_boundaries,
         about=rules.gather.output.recordings,
+        intervals=rules.gather.output.intervals,
         annotation=lambda w: PLAN.annotation_files(w.corpus),
     output:
         folder=directory("<results>/endres2013/{corpus}/eaf"),
@@ -69,6 +70,7 @@ rule binning_elan:
         "<logs>/endres2013/{corpus}/elan.log",
     params:
         code=PLAN.digest("one_wrist/elan.py"),
+        elan=lambda w: w.corpus in PLAN.with_elan,
         data=lambda w: str(PLAN.folders[w.corpus]),
     script:
         "../scripts/one_wrist/elan.py"

@@ -1,23 +1,53 @@
 """Reading and writing of recordings and annotations; a format is one file."""
 
-from signkin.io import bvh, eaf, kinect, pose, tsd, wide_csv, words_csv
+from signkin.io import (
+    bvh,
+    c3d,
+    eaf,
+    elan_tab,
+    exports,
+    frame_labels,
+    keypoints,
+    kinect,
+    openpose_json,
+    pose,
+    subtitles,
+    textgrid,
+    tracked,
+    trc,
+    tsd,
+    wide_csv,
+    words_csv,
+)
 from signkin.io.registry import (
     annotation_formats,
     motion_formats,
     read_annotation,
     read_recording,
+    wants_rate,
 )
 
 __all__ = [
     "annotation_formats",
     "bvh",
+    "c3d",
     "eaf",
+    "elan_tab",
+    "exports",
+    "frame_labels",
+    "keypoints",
     "kinect",
     "motion_formats",
+    "openpose_json",
     "pose",
     "read_annotation",
     "read_recording",
+    "subtitles",
+    "textgrid",
+    "tracked",
+    "trc",
     "tsd",
+    "wants_rate",
     "wide_csv",
     "words_csv",
 ]

@@ -1,398 +1,478 @@
-"""ELAN annotation files (.eaf): read through pympi, written by insertion.
+"""ELAN annotation files (.eaf), 2.0 to 3.0: read by structure, each annotation kept.
 
-Reading adds what pympi leaves open: times of nested tiers (a symbolic child
-has its parent's interval; children that subdivide it share it evenly), times
-that the file leaves open, and the offset of the media clock (TIME_ORIGIN).
+Annotations are kept in lists, since real files use an id twice; a parent is looked up in the
+parent tier alone. A symbolic child has its parent's interval; children that subdivide it share
+it evenly; times that the file leaves open are spread by `open_slots`. Only what is used must
+be there: names of properties, descriptions of constraints or the schema's address need not.
 
-Writing never rewrites the file: new time slots, tiers and one linguistic type
-are inserted at their places in the bytes that are there, and what an earlier
-run inserted is taken out first. So everything else stays as it was, and a
-second run changes no byte.
+Schema: EAFv3.0.xsd; behaviour where files break it: ELAN's own parser.
 """
 
 from __future__ import annotations
 
 import re
-import xml.parsers.expat
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
-from xml.sax.saxutils import escape, quoteattr
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
 
-from pympi.Elan import Eaf
-
-from signkin.annotation import Annotation, Interval
+from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
+from signkin.io.collecting import Collected, TierName, choose_tiers
+from signkin.io.eaf_write import WHOLE, NewTier, elan_copy, insert_tiers, write_eaf
+from signkin.io.open_slots import fill_open
 from signkin.io.registry import annotation_reader
+from signkin.io.xml_tree import Element, parse
 
-# Every identifier that signkin inserts starts with this, so that a later run finds its own.
-MARK = "signkin"
-LINGUISTIC_TYPE = f"{MARK}-segmentation"
+__all__ = ["NewTier", "clock_offset_s", "elan_copy", "insert_tiers", "read_eaf", "write_eaf"]
+
+# Seconds of one unit of TIME_VALUE, by the header's TIME_UNITS.
+SECONDS_PER_UNIT = {"milliseconds": 0.001, "PAL-frames": 0.04, "NTSC-frames": 1001 / 30000}
+EXPECTED = "an .eaf that ELAN opens"
 
 
 @annotation_reader("eaf", suffixes=(".eaf",))
 def read_eaf(
     path: Path,
     *,
-    tiers: tuple[str, ...] | None = None,
+    tiers: tuple[TierWish, ...] | None = None,
     name: str | None = None,
     part: str | None = None,
     unaligned: str = "refuse",
     clock_media: str | None = None,
+    time_units: str | None = None,
 ) -> Annotation:
     """Read tiers of an ELAN file; None reads every tier.
 
     unaligned: what to do with times that the file leaves open: `refuse`, or
     `interpolate` (evenly between the aligned times around them on the tier).
-    clock_media: file name of the medium whose clock the motion shares, where the
-    media of the file start at different times.
+    clock_media: name or address of the medium or linked file whose clock the motion shares,
+    where those of the file start at different times.
+    time_units: what the times are where the header does not say milliseconds (ELAN itself
+    takes them for milliseconds then): milliseconds, PAL-frames or NTSC-frames.
     """
-    eaf = _load(path)
-    wanted = tuple(eaf.tiers) if tiers is None else tiers
-    for tier in wanted:
-        if tier not in eaf.tiers:
-            raise SignkinError(
-                f"no tier {tier!r}",
-                place="tiers",
-                expected=listed(eaf.tiers, 60),
-                todo="Tier names are case-sensitive.",
-            )
-    offset_s = clock_offset_s(eaf.media_descriptors, clock_media)
-    times = _TierTimes(eaf, unaligned)
-    intervals = [
-        Interval(round(start + offset_s, 6), round(end + offset_s, 6), label, tier)
-        for tier in wanted
-        for start, end, label in times.of(tier)
-    ]
-    for tier in wanted:
-        if tiers is not None and not any(i.tier == tier for i in intervals):
-            raise SignkinError("the tier is empty", place=f"tier {tier!r}", expected="intervals")
-    return Annotation(
-        name=name or path.stem,
-        intervals=tuple(intervals),
-        clock_offset_s=offset_s,
-        interpolated=times.interpolated,
+    if unaligned not in ("refuse", "interpolate"):
+        raise SignkinError(
+            f"unaligned is {unaligned!r}", place="unaligned", expected="refuse or interpolate"
+        )
+    root = parse(path.read_bytes(), EXPECTED).root
+    if root.tag != "ANNOTATION_DOCUMENT":
+        raise SignkinError(f"the root is {root.tag[:40]}", place="line 1", expected=EXPECTED)
+    file = _File(root)
+    offset_s = clock_offset_s(root, clock_media)
+    chosen = choose_tiers(tiers, [TierName(t.name, t.participant) for t in file.tiers.values()])
+    times = _Times(file, _seconds_per_unit(root, time_units), unaligned == "interpolate")
+    collected = Collected()
+    for wanted in dict.fromkeys(name for names in chosen.values() for name in names):
+        tier = file.tiers[wanted]
+        for tag, span in zip(tier.tags, times.spans(tier), strict=True):
+            place = f"annotation {tag.key}, line {tag.line}"
+            if isinstance(span, str):
+                collected.leave_out(wanted, place, span)
+                continue
+            if tag.value is None:
+                raise SignkinError(
+                    f"annotation {tag.key} has no ANNOTATION_VALUE",
+                    place=f"tier {wanted!r}, line {tag.line}",
+                    expected="one, which may be empty",
+                )
+            # Microseconds: what even shares of milliseconds leave behind them is no time.
+            start, end = (round(t + offset_s, 6) for t in span)
+            collected.add(start, end, tag.value, wanted, place)
+    return collected.annotation(
+        name or path.stem, tiers, chosen, clock_offset_s=offset_s, interpolated=times.interpolated
     )
 
 
-def _load(path: Path) -> Any:
-    try:
-        return Eaf(str(path), suppress_version_warning=True)
-    except Exception as error:  # pympi raises bare exceptions and lets key errors through
+def _seconds_per_unit(root: Element, declared: str | None) -> float:
+    header = next(iter(root.all("HEADER")), None)
+    found = (header.get("TIME_UNITS") if header is not None else None) or "milliseconds"
+    unit = declared or found
+    if unit not in SECONDS_PER_UNIT or (declared is None and found != "milliseconds"):
         raise SignkinError(
-            f"not readable as an ELAN file ({type(error).__name__}: {error})",
-            expected="an .eaf that ELAN opens",
-        ) from error
+            f"TIME_UNITS is {unit!r}",
+            place="HEADER" if declared is None else "time_units",
+            expected=listed(SECONDS_PER_UNIT) if declared else "milliseconds",
+            todo="Say what the times are as `time_units`; ELAN takes them for milliseconds.",
+        )
+    return SECONDS_PER_UNIT[unit]
 
 
-def clock_offset_s(media: Sequence[Mapping[str, str]], clock_media: str | None) -> float:
-    """Return what to add to the file's times: the TIME_ORIGIN of the medium that motion shares."""
-    origins = {
-        Path(medium.get("MEDIA_URL", "")).name: int(medium.get("TIME_ORIGIN") or 0)
-        for medium in media
-    }
+# --- the clock ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Clock:
+    """A medium or linked file: its addresses, and where its start lies (ms)."""
+
+    addresses: tuple[str, ...]
+    origin_ms: int
+    binding: bool  # whether it must agree with the others where none is chosen
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        plain = (unquote(address).replace("\\", "/") for address in self.addresses)
+        return tuple(dict.fromkeys(PurePosixPath(address).name for address in plain))
+
+
+def clock_offset_s(root: Element, clock_media: str | None) -> float:
+    """Return what to add to the file's times: the TIME_ORIGIN of the file that motion shares.
+
+    Media and linked files count alike; a linked file without a TIME_ORIGIN (settings of ELAN,
+    say) has no clock of its own, but can be named.
+    """
+    clocks = [_clock(e) for header in root.all("HEADER") for e in header.children
+              if e.tag in ("MEDIA_DESCRIPTOR", "LINKED_FILE_DESCRIPTOR")]  # fmt: skip
+    told = [f"{clock.addresses[0] if clock.addresses else '?'} at {clock.origin_ms} ms"
+            for clock in clocks]  # fmt: skip
     if clock_media is not None:
-        if clock_media not in origins:
+        found = [c for c in clocks if clock_media in c.addresses]
+        found = found or [c for c in clocks if clock_media in c.names]
+        if not found:
+            names = dict.fromkeys(name for clock in clocks for name in clock.names)
             raise SignkinError(
-                f"no medium {clock_media!r}", place="clock_media", expected=listed(origins)
+                f"no medium {clock_media!r}", place="clock_media", expected=listed(names)
             )
-        return origins[clock_media] / 1000
-    if len(set(origins.values())) > 1:
-        told = listed(f"{medium} at {origin} ms" for medium, origin in origins.items())
+        origins = {clock.origin_ms for clock in found}
+        if len(origins) > 1:
+            raise SignkinError(
+                f"several media are called {clock_media!r} ({listed(told)})",
+                place="clock_media",
+                expected="the whole MEDIA_URL of one",
+            )
+        return origins.pop() / 1000
+    origins = {clock.origin_ms for clock in clocks if clock.binding}
+    if len(origins) > 1:
         raise SignkinError(
-            f"the media start at different times ({told})",
+            f"the media start at different times ({listed(told)})",
             place="TIME_ORIGIN",
             expected="one clock",
             todo="Name the medium that the motion shares its clock with as `clock_media`.",
         )
-    return next(iter(origins.values()), 0) / 1000
+    return next(iter(origins), 0) / 1000
 
 
-class _TierTimes:
-    """Times of a tier's annotations in the file's own clock, in seconds."""
+def _clock(element: Element) -> _Clock:
+    medium = element.tag == "MEDIA_DESCRIPTOR"
+    kind = "MEDIA_URL" if medium else "LINK_URL"
+    addresses = (element.get(kind), element.get(f"RELATIVE_{kind}"))
+    written = element.get("TIME_ORIGIN") or "0"
+    if not re.fullmatch(r"\s*[+-]?[0-9]{1,15}\s*", written, re.ASCII):
+        raise SignkinError(
+            f"TIME_ORIGIN is {written[:40]!r}",
+            place=f"line {element.line}",
+            expected="whole milliseconds",
+        )
+    own = medium or element.get("TIME_ORIGIN") is not None
+    return _Clock(tuple(a for a in addresses if a), int(written), own)
 
-    def __init__(self, eaf: Any, unaligned: str) -> None:
-        if unaligned not in ("refuse", "interpolate"):
-            raise SignkinError(
-                f"unaligned is {unaligned!r}", place="unaligned", expected="refuse or interpolate"
-            )
-        self.eaf = eaf
-        self.unaligned = unaligned
-        self.interpolated = 0
-        self._spans: dict[str, dict[str, tuple[float, float]]] = {}
 
-    def of(self, tier: str) -> list[tuple[float, float, str]]:
-        spans = self.spans(tier)
-        aligned, referring = self.eaf.tiers[tier][:2]
-        labels = {key: row[2] for key, row in aligned.items()}
-        labels.update({key: row[1] for key, row in referring.items()})
-        return [(*spans[key], labels[key]) for key in labels]
+# --- what is in the file -------------------------------------------------------------------------
 
-    def spans(self, tier: str) -> dict[str, tuple[float, float]]:
-        if tier not in self._spans:
-            self._spans[tier] = {}  # a tier that is its own ancestor finds nothing here
-            self._spans[tier] = {**self._aligned(tier), **self._referring(tier)}
-        return self._spans[tier]
 
-    def _aligned(self, tier: str) -> dict[str, tuple[float, float]]:
-        rows = self.eaf.tiers[tier][0]
-        slots: dict[str, float | None] = {
-            slot: None if ms is None else ms / 1000 for slot, ms in self.eaf.timeslots.items()
+@dataclass(slots=True)
+class Tag:
+    """An annotation: two slots, or a parent and perhaps the one before it."""
+
+    key: str
+    line: int
+    value: str | None
+    slots: tuple[str, str] | None
+    parent: str = ""
+    previous: str = ""
+
+
+@dataclass(eq=False)
+class Tier:
+    """A tier with its annotations in the file's order."""
+
+    name: str
+    parent: str | None
+    participant: str
+    line: int
+    subdivides: bool
+    tags: list[Tag] = field(default_factory=list)
+
+
+class _File:
+    """Slots and tiers of a document."""
+
+    def __init__(self, root: Element) -> None:
+        self.values: dict[str, str | None] = {}
+        self.slot_lines: dict[str, int] = {}
+        for order in root.all("TIME_ORDER"):
+            for slot in order.all("TIME_SLOT"):
+                self._add_slot(slot)
+        kinds = {
+            kind.get("LINGUISTIC_TYPE_ID"): kind.get("CONSTRAINTS")
+            for kind in root.all("LINGUISTIC_TYPE")
         }
-        used = [slot for row in rows.values() for slot in row[:2]]
-        missing = [slot for slot in used if slots.get(slot) is None]
-        if missing and self.unaligned == "refuse":
+        self.tiers: dict[str, Tier] = {}
+        for element in root.all("TIER"):
+            tier = Tier(
+                name=element.need("TIER_ID"),
+                parent=element.get("PARENT_REF") or None,
+                participant=element.get("PARTICIPANT") or "",
+                line=element.line,
+                subdivides=_is(kinds.get(element.get("LINGUISTIC_TYPE_REF")), "subdivision"),
+            )
+            if tier.name in self.tiers:
+                raise SignkinError(
+                    f"the tier {tier.name!r} stands in line {self.tiers[tier.name].line} already",
+                    place=f"line {tier.line}",
+                    expected="each tier once",
+                )
+            tier.tags = [_tag(annotation) for annotation in element.all("ANNOTATION")]
+            self.tiers[tier.name] = tier
+
+    def _add_slot(self, slot: Element) -> None:
+        key, value = slot.need("TIME_SLOT_ID"), slot.get("TIME_VALUE")
+        if key in self.values and self.values[key] != value:
             raise SignkinError(
-                f"{len(set(missing))} times are left open (the first is slot {missing[0]})",
-                place=f"tier {tier!r}",
+                f"slot {key} has another time in line {self.slot_lines[key]}",
+                place=f"line {slot.line}",
+                expected="each slot once",
+            )
+        self.values.setdefault(key, value)
+        self.slot_lines.setdefault(key, slot.line)
+
+
+def _is(constraint: str | None, kind: str) -> bool:
+    return constraint is not None and constraint.lower() == f"symbolic_{kind}"
+
+
+def _tag(annotation: Element) -> Tag:
+    inside = annotation.all("ALIGNABLE_ANNOTATION", "REF_ANNOTATION")
+    if len(inside) != 1:
+        raise SignkinError(
+            f"an ANNOTATION holds {len(inside)} annotations",
+            place=f"line {annotation.line}",
+            expected="one, ALIGNABLE_ANNOTATION or REF_ANNOTATION",
+        )
+    element = inside[0]
+    values = element.all("ANNOTATION_VALUE")
+    value = None if not values else values[0].text
+    key = element.get("ANNOTATION_ID") or "without id"
+    if element.tag == "REF_ANNOTATION":
+        previous = element.get("PREVIOUS_ANNOTATION") or ""
+        return Tag(key, element.line, value, None, element.need("ANNOTATION_REF"), previous)
+    slots = (element.need("TIME_SLOT_REF1"), element.need("TIME_SLOT_REF2"))
+    return Tag(key, element.line, value, slots)
+
+
+# --- times ---------------------------------------------------------------------------------------
+
+# The times of an annotation (s, the file's clock), or why it has none.
+Span = tuple[float, float] | str
+
+
+class _Times:
+    """Times of tiers in the file's own clock, each tier's worked out once."""
+
+    def __init__(self, file: _File, seconds_per_unit: float, interpolate: bool) -> None:
+        self.file = file
+        self.interpolate = interpolate
+        self.faults: dict[str, str] = {}
+        self.known: dict[str, float | None] = {}
+        for key, value in file.values.items():
+            self.known[key] = None
+            if value is None:
+                continue
+            if WHOLE.fullmatch(value):
+                self.known[key] = int(value) * seconds_per_unit
+            else:
+                self.faults[key] = (
+                    f"slot {key} has TIME_VALUE {value[:40]} in line {file.slot_lines[key]}, "
+                    "expected whole milliseconds"
+                )
+        self._filled: dict[str, float] | None = None
+        self._used: set[str] = set()
+        self._spans: dict[str, list[Span]] = {}
+
+    @property
+    def interpolated(self) -> int:
+        """Number of times that were interpolated and used."""
+        return len(self._used)
+
+    def spans(self, tier: Tier) -> list[Span]:
+        """Return the times of a tier's annotations, in the tier's order."""
+        line: list[Tier] = []
+        while tier.name not in self._spans and tier not in line:
+            line.append(tier)
+            if all(tag.slots is not None for tag in tier.tags):
+                break
+            tier = self._parent_of(tier)
+        else:
+            if tier in line:
+                raise SignkinError(
+                    "the tier is its own ancestor",
+                    place=f"tier {tier.name!r}, line {tier.line}",
+                    expected="a parent tier that does not hang on it",
+                )
+        while line:  # ancestors first
+            tier = line.pop()
+            self._spans[tier.name] = self._of(tier)
+        return self._spans[tier.name]
+
+    def _parent_of(self, tier: Tier) -> Tier:
+        if tier.parent is not None:
+            if tier.parent not in self.file.tiers:
+                raise SignkinError(
+                    f"the parent tier {tier.parent!r} is not there",
+                    place=f"tier {tier.name!r}, line {tier.line}",
+                    expected=listed(self.file.tiers, 60),
+                )
+            return self.file.tiers[tier.parent]
+        wanted = next(tag.parent for tag in tier.tags if tag.slots is None)
+        owners = [
+            t
+            for t in self.file.tiers.values()
+            if t is not tier and any(tag.key == wanted for tag in t.tags)
+        ]
+        if len(owners) != 1:
+            raise SignkinError(
+                f"annotations refer to others ({wanted}), and the tier names no parent tier",
+                place=f"tier {tier.name!r}, line {tier.line}",
+                expected="a PARENT_REF",
+            )
+        return owners[0]
+
+    def _of(self, tier: Tier) -> list[Span]:
+        out: list[Span] = ["" for _ in tier.tags]
+        for i, tag in enumerate(tier.tags):
+            if tag.slots is not None:
+                out[i] = self._aligned(tier, tag, tag.slots)
+        if any(tag.slots is None for tag in tier.tags):
+            for i, span in _shares(tier, self._parents(tier)).items():
+                out[i] = span
+        return out
+
+    def _aligned(self, tier: Tier, tag: Tag, slots: tuple[str, str]) -> Span:
+        for slot in slots:
+            if slot not in self.known:
+                raise SignkinError(
+                    f"annotation {tag.key} refers to slot {slot}, which is not in the file",
+                    place=f"tier {tier.name!r}, line {tag.line}",
+                    expected="a slot of TIME_ORDER",
+                )
+            if slot in self.faults:
+                return self.faults[slot]
+        start, end = (self._time(tier, slot) for slot in slots)
+        return start, end
+
+    def _time(self, tier: Tier, slot: str) -> float:
+        time = self.known[slot]
+        if time is not None:
+            return time
+        if not self.interpolate:
+            open_slots = [
+                s for tag in tier.tags for s in tag.slots or ()
+                if s not in self.faults and self.known.get(s, 0.0) is None
+            ]  # fmt: skip
+            raise SignkinError(
+                f"{len(set(open_slots))} times are left open (the first is slot {slot})",
+                place=f"tier {tier.name!r}",
                 expected="aligned times",
                 todo="Align them in ELAN, or set `unaligned: interpolate`.",
             )
-        if missing:
-            self._fill(tier, used, slots)
-        return {key: (slots[row[0]] or 0.0, slots[row[1]] or 0.0) for key, row in rows.items()}
+        if self._filled is None:
+            self._filled = fill_open(self._edges(), self.known)
+        if slot not in self._filled:
+            raise SignkinError(
+                f"the time of slot {slot} is open and no aligned time stands on both sides",
+                place=f"tier {tier.name!r}",
+                expected="aligned times around it",
+            )
+        self._used.add(slot)
+        return self._filled[slot]
 
-    def _fill(self, tier: str, used: list[str], slots: dict[str, float | None]) -> None:
-        """Spread runs of open slots evenly; an annotation's end may be the next one's start."""
-        order = list(dict.fromkeys(used))
-        known = [i for i, slot in enumerate(order) if slots.get(slot) is not None]
-        for i, slot in enumerate(order):
-            if slots.get(slot) is not None:
+    def _edges(self) -> list[list[tuple[str, str]]]:
+        """Return the pairs of slots of each tier, parents before their children."""
+        depth: dict[str, int] = {}
+        for tier in self.file.tiers.values():
+            line = [tier.name]
+            while line[-1] not in depth:
+                up = self.file.tiers[line[-1]].parent
+                if up is None or up not in self.file.tiers or up in line:
+                    depth[line[-1]] = 0
+                else:
+                    line.append(up)
+            for below, above in zip(line[-2::-1], line[:0:-1], strict=True):
+                depth[below] = depth[above] + 1
+        order = sorted(self.file.tiers.values(), key=lambda tier: depth[tier.name])
+        usable = self.known.keys() - self.faults.keys()
+        return [
+            [tag.slots for tag in tier.tags if tag.slots and usable.issuperset(tag.slots)]
+            for tier in order
+        ]
+
+    def _parents(self, tier: Tier) -> dict[str, Span]:
+        """Return the times of each parent that the tier's annotations refer to."""
+        above = self._parent_of(tier)
+        wanted = {tag.parent for tag in tier.tags if tag.slots is None}
+        found: dict[str, tuple[int, Span]] = {}
+        for tag, span in zip(above.tags, self._spans[above.name], strict=True):
+            if tag.key not in wanted:
                 continue
-            before = max((k for k in known if k < i), default=None)
-            after = min((k for k in known if k > i), default=None)
-            if before is None or after is None:
+            if tag.key in found and found[tag.key][1] != span:
                 raise SignkinError(
-                    f"the time of slot {slot} is open and no aligned time stands on both sides",
-                    place=f"tier {tier!r}",
-                    expected="aligned times around it",
+                    f"{tag.key} is used twice (lines {found[tag.key][0]} and {tag.line}), and "
+                    f"tier {tier.name!r} refers to it",
+                    place=f"tier {above.name!r}",
+                    expected="each id once",
+                    todo="Save the file in ELAN, which gives new ids.",
                 )
-            low, high = slots[order[before]], slots[order[after]]
-            assert low is not None and high is not None
-            slots[slot] = low + (high - low) * (i - before) / (after - before)
-            self.interpolated += 1
-
-    def _referring(self, tier: str) -> dict[str, tuple[float, float]]:
-        rows = self.eaf.tiers[tier][1]
-        if not rows:
-            return {}
-        parents = {key: self._parent_span(tier, row[0]) for key, row in rows.items()}
-        siblings: dict[str, list[str]] = {}
-        for key in _in_chain_order(rows):
-            siblings.setdefault(rows[key][0], []).append(key)
-        out = {}
-        for children in siblings.values():
-            subdivides = any(rows[key][2] for key in children)
-            for i, key in enumerate(children):
-                start, end = parents[key]
-                width = (end - start) / len(children)
-                out[key] = (start + i * width, start + (i + 1) * width) if subdivides else (
-                    start,
-                    end,
-                )  # fmt: skip
-        return out
-
-    def _parent_span(self, tier: str, parent: str) -> tuple[float, float]:
-        owner = self.eaf.annotations.get(parent)
-        spans = self.spans(owner) if owner is not None else {}
-        if parent not in spans:
-            raise SignkinError(
-                f"an annotation refers to {parent}, which is not in the file",
-                place=f"tier {tier!r}",
-                expected="a parent annotation",
-            )
-        return spans[parent]
+            found.setdefault(tag.key, (tag.line, span))
+        for tag in tier.tags:
+            if tag.slots is None and tag.parent not in found:
+                raise SignkinError(
+                    f"annotation {tag.key} refers to {tag.parent}, which is not on the tier "
+                    f"{above.name!r}",
+                    place=f"tier {tier.name!r}, line {tag.line}",
+                    expected="a parent annotation",
+                )
+        return {
+            key: f"its parent {key}: {span}" if isinstance(span, str) else span
+            for key, (_, span) in found.items()
+        }
 
 
-def _in_chain_order(rows: Mapping[str, tuple[str, str, str | None, Any]]) -> list[str]:
-    """Order children by PREVIOUS_ANNOTATION; the file may list them in any order."""
-    after = {row[2]: key for key, row in rows.items() if row[2]}
-    order: list[str] = []
-    for key, row in rows.items():
-        if row[2]:
+def _shares(tier: Tier, parents: Mapping[str, Span]) -> dict[int, Span]:
+    """Return the times of annotations that refer to others: the parent's, or a share of them."""
+    children: dict[str, list[int]] = {}
+    for i, tag in enumerate(tier.tags):
+        if tag.slots is None:
+            children.setdefault(tag.parent, []).append(i)
+    out: dict[int, Span] = {}
+    for parent, own in children.items():
+        span = parents[parent]
+        if isinstance(span, str):
+            out.update(dict.fromkeys(own, span))
             continue
-        link: str | None = key
-        while link is not None and link not in order:
-            order.append(link)
-            link = after.get(link)
-    return order + [key for key in rows if key not in order]
+        start, end = span
+        divided = tier.subdivides or any(tier.tags[i].previous for i in own)
+        width = (end - start) / len(own)
+        for place, i in enumerate(_in_chain_order(tier.tags, own)):
+            # The last one ends where the parent does, whatever the sum of the shares.
+            last = end if place == len(own) - 1 else start + (place + 1) * width
+            out[i] = (start + place * width, last) if divided else (start, end)
+    return out
 
 
-# --- writing ---------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class NewTier:
-    """A tier to insert; intervals in seconds of the recording's clock."""
-
-    name: str
-    intervals: tuple[Interval, ...]
-
-
-def insert_tiers(content: bytes, tiers: Sequence[NewTier], clock_offset_s: float = 0.0) -> bytes:
-    """Return an ELAN file's bytes with tiers added and everything else untouched.
-
-    Tiers that an earlier call inserted are replaced. Each time becomes a time slot
-    of its own, put into TIME_ORDER by its value; milliseconds, as ELAN keeps them.
-    """
-    content = _without_own(content)
-    layout = _layout(content)
-    insertions: list[tuple[int, str]] = []
-    tier_blocks = []
-    for t, tier in enumerate(tiers, start=1):
-        if tier.name in layout.tier_names:
-            raise SignkinError(
-                f"the file has a tier {tier.name!r} already",
-                place="tiers",
-                expected="a name that is free",
-            )
-        annotations = []
-        for i, interval in enumerate(tier.intervals, start=1):
-            slots = []
-            for edge, time_s in (("a", interval.start_s), ("b", interval.end_s)):
-                # ELAN has no times before its media: a tag there is put at their start.
-                ms = max(0, round((time_s - clock_offset_s) * 1000))
-                slot = f"{MARK}_ts{t}_{i}{edge}"
-                slots.append(slot)
-                text = f'<TIME_SLOT TIME_SLOT_ID="{slot}" TIME_VALUE="{ms}"/>'
-                insertions.append((layout.slot_place(ms), text))
-            annotations.append(
-                f'<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="{MARK}_a{t}_{i}" '
-                f'TIME_SLOT_REF1="{slots[0]}" TIME_SLOT_REF2="{slots[1]}">'
-                f"<ANNOTATION_VALUE>{escape(interval.label)}</ANNOTATION_VALUE>"
-                "</ALIGNABLE_ANNOTATION></ANNOTATION>"
-            )
-        tier_blocks.append(
-            f"<TIER TIER_ID={quoteattr(tier.name)} "
-            f'LINGUISTIC_TYPE_REF="{LINGUISTIC_TYPE}">{"".join(annotations)}</TIER>'
-        )
-    insertions.append((layout.tier_place, "".join(tier_blocks)))
-    insertions.append(
-        (
-            layout.type_place,
-            f'<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="{LINGUISTIC_TYPE}" TIME_ALIGNABLE="true" '
-            'GRAPHIC_REFERENCES="false"/>',
-        )
-    )
-    return _inserted(content, insertions)
-
-
-def _inserted(content: bytes, insertions: Sequence[tuple[int, str]]) -> bytes:
-    out, done = bytearray(), 0
-    # Slots at one place are told apart by their value: TIME_ORDER is kept in order of time.
-    for place, text in sorted(insertions, key=lambda item: (item[0], _slot_value(item[1]))):
-        out += content[done:place] + text.encode("utf-8")
-        done = place
-    return bytes(out + content[done:])
-
-
-def _slot_value(text: str) -> int:
-    value = re.match(r'<TIME_SLOT [^>]*TIME_VALUE="(-?\d+)"', text)
-    return int(value.group(1)) if value else -1
-
-
-_OWN = re.compile(
-    rb'<TIME_SLOT TIME_SLOT_ID="signkin_[^>]*/>'
-    rb'|<TIER TIER_ID=(?:"[^"]*"|\'[^\']*\') LINGUISTIC_TYPE_REF="signkin-segmentation">.*?</TIER>'
-    rb'|<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="signkin-segmentation"[^>]*/>',
-    re.DOTALL,
-)
-
-
-def _without_own(content: bytes) -> bytes:
-    return _OWN.sub(b"", content)
-
-
-@dataclass
-class _Layout:
-    """Byte places of an ELAN file at which something can be inserted."""
-
-    slots: list[tuple[int, int]] = field(default_factory=list)  # (value in ms, place)
-    slots_end: int = -1
-    tier_place: int = -1
-    type_place: int = -1
-    tier_names: list[str] = field(default_factory=list)
-
-    def slot_place(self, ms: int) -> int:
-        """Return the place before the first slot that is later than `ms`."""
-        return next((place for value, place in self.slots if value > ms), self.slots_end)
-
-
-def _layout(content: bytes) -> _Layout:
-    layout = _Layout()
-    parser = xml.parsers.expat.ParserCreate()
-
-    def start(tag: str, attributes: dict[str, str]) -> None:
-        if tag == "TIME_SLOT" and attributes.get("TIME_VALUE"):
-            layout.slots.append((int(attributes["TIME_VALUE"]), parser.CurrentByteIndex))
-        elif tag == "TIER":
-            layout.tier_names.append(attributes["TIER_ID"])
-
-    def end(tag: str) -> None:
-        # The parser stands at `</A>`, or right behind `<A/>`.
-        place = parser.CurrentByteIndex
-        closing = content.startswith(f"</{tag}".encode(), place)
-        after = content.index(b">", place) + 1 if closing else place
-        if tag == "TIME_ORDER":
-            layout.slots_end = place if closing else -1
-            layout.tier_place = after
-        elif tag == "TIER":
-            layout.tier_place = after
-        elif tag == "LINGUISTIC_TYPE":
-            layout.type_place = after
-
-    def declaration(version: str, encoding: str | None, standalone: int) -> None:
-        if encoding is not None and encoding.lower() not in ("utf-8", "us-ascii"):
-            raise SignkinError(
-                f"the file is written in {encoding}",
-                expected="UTF-8, as ELAN writes it",
-                todo="Open and save it in ELAN.",
-            )
-
-    parser.XmlDeclHandler = declaration
-    parser.StartElementHandler = start
-    parser.EndElementHandler = end
-    try:
-        parser.Parse(content, True)
-    except xml.parsers.expat.ExpatError as error:
-        raise SignkinError(f"not well-formed XML ({error})", expected="an ELAN file") from error
-    if layout.slots_end < 0 or layout.tier_place < 0 or layout.type_place < 0:
-        raise SignkinError(
-            "no TIME_ORDER with time slots, or no LINGUISTIC_TYPE",
-            expected="an ELAN file with at least one tagged tier",
-        )
-    return layout
-
-
-def write_eaf(
-    path: Path,
-    *,
-    author: str,
-    date: str,
-    media_url: str,
-    tiers: Sequence[tuple[str, str | None, Sequence[Interval]]],
-) -> None:
-    """Write a new ELAN file: (tier, parent tier or None, intervals), same input, same bytes.
-
-    A tier with a parent is included in it (its intervals have times of their own).
-    """
-    eaf = Eaf(author=author)
-    eaf.adocument["DATE"] = date
-    eaf.add_linked_file(media_url, mimetype="unknown")
-    eaf.remove_tier("default")
-    eaf.add_linguistic_type("included", constraints="Included_In")
-    for name, parent, intervals in tiers:
-        if parent is None:
-            eaf.add_tier(name)
-        else:
-            eaf.add_tier(name, ling="included", parent=parent)
-        for interval in intervals:
-            eaf.add_annotation(
-                name,
-                round(interval.start_s * 1000),
-                round(interval.end_s * 1000),
-                interval.label,
-            )
-    path.unlink(missing_ok=True)  # pympi would keep the old file as a .bak
-    eaf.to_file(str(path))
+def _in_chain_order(tags: list[Tag], own: list[int]) -> list[int]:
+    """Order children by PREVIOUS_ANNOTATION; the file may list them in any order."""
+    ids = {tags[i].key for i in own}
+    after: dict[str, list[int]] = {}
+    for i in own:
+        if tags[i].previous in ids:
+            after.setdefault(tags[i].previous, []).append(i)
+    order: dict[int, None] = {}
+    heads = [i for i in own if tags[i].previous not in ids]
+    for head in [*heads, *own]:
+        stack = [head]
+        while stack:
+            i = stack.pop()
+            if i not in order:
+                order[i] = None
+                stack += reversed(after.get(tags[i].key, []))
+    return list(order)

@@ -11,6 +11,7 @@ import pandas as pd
 
 import signkin
 from signkin.corpus import Corpus
+from signkin.errors import listed
 from signkin.exhibits import exhibits, of_groups
 from signkin.pages.audit import audit_section
 from signkin.pages.corpora import design, first_rows, origin, sign_columns, titled
@@ -115,8 +116,19 @@ def _summary(sources: Sources) -> Section:
             f"{name}: recording {row.recording} is left out. {row.reason}"
             for row in excluded.itertuples()
         ]
+        notices += _read_with_notes(sources, name)
         notices += _implausible(sources, name)
     return Section("summary", "Corpora", exhibits=(view,), notices=notices)
+
+
+def _read_with_notes(sources: Sources, name: str) -> list[str]:
+    """Return what was decided in reading, each kind once with the recordings it was decided in."""
+    about = read_table(sources.shared(name, "recordings"), "recordings")
+    where: dict[str, list[str]] = {}
+    for recording, notes in zip(about["recording"], about["notes"].fillna(""), strict=True):
+        for note in str(notes).split(" | ") if notes else ():
+            where.setdefault(note, []).append(str(recording))
+    return [f"{name}: {note} ({listed(there, 5)})." for note, there in where.items()]
 
 
 def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:

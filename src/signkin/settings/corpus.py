@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
+from signkin.settings.annotation import Annotation
 from signkin.settings.base import Hertz, Positive, Section, key
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
@@ -15,16 +16,38 @@ Columns = Annotated[tuple[Text, ...], Field(min_length=2, max_length=3, strict=F
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 
 
+MotionFormat = Literal[
+    "bvh", "c3d", "csv", "deeplabcut_csv", "kinect", "kinect_v2", "mediapipe_csv", "motive_csv",
+    "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv", "trc", "tsd", "vicon_csv",
+]  # fmt: skip
+Unit = Literal["m", "cm", "mm", "inch", "ft", "px"] | Positive
+
+
+class OverruledRate(Section):
+    """A rate instead of the one that the files tell."""
+
+    use: Hertz = key(text="The right rate.", unit="Hz")
+    instead_of_file: Literal[True] = key(text="That it is meant.")
+
+
 class Motion(Section):
     """How motion files are read."""
 
-    format: Literal["bvh", "pose", "csv", "tsd", "kinect"] = key(
-        text="Format of the motion files: a reader of docs/adding-a-corpus.md."
+    format: MotionFormat = key(
+        text="Format of the motion files: a reader of docs/adding-a-corpus.md, Motion formats."
     )
-    unit: Literal["m", "cm", "mm", "px"] = key(
-        "m", "Unit of length in the files; px for image coordinates."
-    )
-    rate_hz: Hertz | None = key(None, "Sampling rate, where the files do not tell it.", unit="Hz")
+    unit: (
+        Unit
+        | Annotated[tuple[Unit, ...], Field(min_length=3, max_length=3, strict=False)]
+        | None
+    ) = key(
+        None, "Unit of length in the files, where they do not tell it, or metres a unit; px for "
+        "image coordinates; a list of three, one an axis of the file.",
+    )  # fmt: skip
+    rate_hz: Hertz | OverruledRate | None = key(
+        None, "Sampling rate, where the files do not tell it; `{use: 60, instead_of_file: true}` "
+        "where they tell it wrongly.", unit="Hz",
+    )  # fmt: skip
     up: Axis | None = key(None, "The file's axis that points up.")
     right: Axis | None = key(None, "The file's axis that points to the signer's right.")
     joints: dict[str, Text | Columns] = key(
@@ -37,29 +60,6 @@ class Motion(Section):
     options: dict[str, Any] = key(
         {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."
     )
-
-
-class Annotation(Section):
-    """How annotation files are read."""
-
-    format: Literal["eaf", "csv"] = key(text="Format of the annotation files.")
-    sign_tier: Text = key(text="Tier of the signs.")
-    utterance_tier: Text | None = key(
-        None, "Tier whose intervals are the utterances; or utterance_gap_s."
-    )
-    utterance_gap_s: Positive | None = key(
-        None, "A pause longer than this ends an utterance (where no tier tells).", unit="s"
-    )
-    translation_tier: Text | None = key(None, "Tier with translations, for Table 1.")
-    options: dict[str, Any] = key(
-        {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."
-    )
-
-    @model_validator(mode="after")
-    def _one_rule(self) -> Annotation:
-        if self.utterance_tier is not None and self.utterance_gap_s is not None:
-            raise ValueError("utterance_tier or utterance_gap_s, not both")
-        return self
 
 
 class FoundSign(Section):
@@ -136,6 +136,9 @@ class CorpusDescription(Section):
     noise_source: str | None = key(None, "Where noise_sd comes from.")
     truth_file: str | None = key(None, "Table of true boundaries in the data folder.")
     motion: Motion = key(text="How motion files are read.")
+    left_handed: Annotated[tuple[Text, ...], Field(strict=False)] = key(
+        (), "Signers whose dominant hand is the left one."
+    )
     annotation: Annotation | None = key(
         None, "How annotation files are read; without it the corpus has no tags."
     )

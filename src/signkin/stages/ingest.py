@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from signkin import tables
-from signkin.annotation import Annotation
-from signkin.corpus import Corpus, Entry, check_checksum
+from signkin.annotation import Annotation, Interval
+from signkin.annotation_rules import signs_of_hands
+from signkin.corpus import Corpus, Entry, check_checksum, data_file
 from signkin.errors import SignkinError
-from signkin.io import read_annotation, read_recording
+from signkin.io import read_annotation, read_recording, wants_rate
 from signkin.kinematics.rotations import with_limb_frames
 from signkin.recording import Recording
+
+MOST_TOLD = 5  # tags left out that a table names; the others it counts
 
 
 @dataclass
@@ -37,21 +41,27 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
     """Read the recordings of a shard with their tags.
 
     A recording that cannot be used ends the run, or, where the corpus says `on_error: skip`,
-    is left out and listed.
+    is left out and listed, whatever went wrong in it or its tags.
     """
     out = Ingested()
-    for name in dict.fromkeys(n for e in entries for n in (e.motion, e.annotation) if n):
-        check_checksum(corpus, folder, name)
+    checked: set[str] = set()
     for entry in entries:
         try:
+            for name in (entry.motion, entry.annotation):
+                if name and name not in checked:
+                    if corpus.simulator is None:
+                        data_file(corpus, folder, entry, name)
+                    check_checksum(corpus, folder, name)
+                    checked.add(name)
             recording, annotation = read_entry(corpus, folder, entry)
-        except SignkinError as error:
+            intervals = _interval_rows(corpus, entry, annotation)
+            about = _about(corpus, entry, recording, annotation, intervals)
+        except Exception as error:
             out.excluded.append(excluded_row(corpus, entry.recording, "reading", error))
             continue
         out.recordings.append(recording)
-        intervals = _interval_rows(corpus, entry, annotation)
         out.intervals += intervals
-        out.about.append(_about(corpus, entry, recording, annotation, intervals))
+        out.about.append(about)
     if not out.recordings:
         raise SignkinError(
             f"none of {len(entries)} recordings can be used; the first: "
@@ -68,11 +78,19 @@ def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, A
     return recording, _annotation(corpus, folder, entry, recording)
 
 
-def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError) -> dict[str, Any]:
-    """Return the row that lists a recording as left out, or raise where that is not allowed."""
-    if corpus.settings.get("on_error", "stop") != "skip":
+def excluded_row(corpus: Corpus, recording: str, stage: str, error: Exception) -> dict[str, Any]:
+    """Return the row that lists a recording as left out, or raise where that is not allowed.
+
+    What is no SignkinError is a fault of this package: it is listed with its kind, and its
+    traceback stands in the log.
+    """
+    if not corpus.skips:
         raise error
-    return {**lead(corpus, recording), "stage": stage, "reason": str(error)}
+    reason = str(error)
+    if not isinstance(error, SignkinError):
+        traceback.print_exception(error)
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+    return {**lead(corpus, recording), "stage": stage, "reason": reason}
 
 
 def lead(corpus: Corpus, recording: str) -> dict[str, str]:
@@ -83,6 +101,13 @@ def lead(corpus: Corpus, recording: str) -> dict[str, str]:
 
 def _recording(corpus: Corpus, folder: Path, entry: Entry) -> Recording:
     recording = read_recording(folder / entry.motion, **corpus.motion_spec(entry))
+    if recording.unit != corpus.unit:
+        raise SignkinError(
+            f"the positions are in {recording.unit}",
+            file=folder / entry.motion,
+            place="key motion.unit",
+            expected=f"unit: {recording.unit} in corpus.yaml",
+        )
     wanted = corpus.settings["motion"].get("orientations", "none")
     try:
         if wanted == "limb_frames":
@@ -106,17 +131,23 @@ def _annotation(
     if not corpus.tagged:
         return None
     spec = corpus.annotation_spec(entry)
-    if spec.get("time_unit") == "frames":
-        spec["rate_hz"] = recording.rate_hz
+    others = {r: own for r, own in corpus.tiers_of(entry).items() if r != "sign"}
+    spec["clip"] = [wish for own in others.values() for wish in own.values()]
+    if wants_rate(str(spec["format"])):
+        spec.setdefault("rate_hz", recording.rate_hz)
     path = folder / entry.annotation
     annotation = read_annotation(path, **spec)
     try:
+        annotation = _one_line_of_signs(corpus, entry, annotation)
+        if not of_role(corpus, entry, annotation, "sign"):
+            raise SignkinError("no sign", place="key annotation", expected="one or more")
         # Annotators tag video, whose last frame may end one frame after the motion does.
         annotation.refuse_past(recording.duration_s, 1.0 / recording.rate_hz)
     except SignkinError as error:
         raise SignkinError(
             error.found, file=path, place=error.place, expected=error.expected,
-            todo="Is this the motion's annotation, and its rate right?",
+            todo=error.todo or "Is this the motion's annotation, and its rate right? Where it is "
+            "that of a longer recording, tell from_s and to_s in recordings.csv.",
         ) from error  # fmt: skip
     return annotation
 
@@ -130,14 +161,62 @@ def _interval_rows(
         {
             **lead(corpus, entry.recording),
             "role": role,
-            "tier": tier,
+            "tier": interval.tier,
             "label": interval.label,
+            "written": interval.as_written,
             "start_s": interval.start_s,
             "end_s": interval.end_s,
         }
-        for role, tier in corpus.tiers.items()
-        for interval in annotation.tier(tier)
+        for role in corpus.tiers
+        for interval in of_role(corpus, entry, annotation, role)
     ]
+
+
+def of_role(
+    corpus: Corpus, entry: Entry, annotation: Annotation, role: str
+) -> tuple[Interval, ...]:
+    """Return the intervals of a role (`sign`), of all hands, in order of time."""
+    by_hand = corpus.tiers_of(entry)[role]
+    return tuple(sorted(interval for wish in by_hand.values() for interval in annotation.of(wish)))
+
+
+def _one_line_of_signs(corpus: Corpus, entry: Entry, annotation: Annotation) -> Annotation:
+    """Return the annotation with the sign tiers of both hands made one sequence of signs."""
+    by_hand = corpus.tiers_of(entry)["sign"]
+    if set(by_hand) == {"both"}:
+        return annotation
+    tiers = {hand: annotation.of(wish) for hand, wish in by_hand.items()}
+    signs, left_out = signs_of_hands(tiers, corpus.dominant_hand(entry))
+    ours = {id(interval) for own in tiers.values() for interval in own}
+    others = [interval for interval in annotation.intervals if id(interval) not in ours]
+    return replace(
+        annotation,
+        intervals=(*others, *signs),
+        left_out=(*annotation.left_out, *left_out),
+    )
+
+
+def tags_of(intervals: pd.DataFrame, recording: str) -> tuple[Interval, ...]:
+    """Return the tags of a recording from the table `intervals`, as the annotation writes them."""
+    rows = intervals[intervals["recording"] == recording]
+    columns = zip(rows["start_s"], rows["end_s"], rows["written"], rows["tier"], strict=True)
+    # A label may be empty, which a table read from a file has as missing.
+    found = [
+        Interval(float(start), float(end), "" if pd.isna(label) else str(label), str(tier))
+        for start, end, label, tier in columns
+    ]
+    return tuple(dict.fromkeys(found))  # a tier may have two roles
+
+
+def _tags_note(annotation: Annotation | None) -> str:
+    """Return which tags were left out and which tiers are empty, the first few by name."""
+    if annotation is None:
+        return ""
+    notes = [str(one) for one in annotation.left_out[:MOST_TOLD]]
+    if len(annotation.left_out) > MOST_TOLD:
+        notes.append(f"and {len(annotation.left_out) - MOST_TOLD} more")
+    notes += [f"tier {tier} is empty" for tier in annotation.empty_tiers]
+    return "; ".join(" ".join(note.split()) for note in notes)
 
 
 def _about(
@@ -160,6 +239,9 @@ def _about(
         "signs": sum(row["role"] == "sign" for row in intervals),
         "clock_offset_s": annotation.clock_offset_s if annotation else 0.0,
         "times_interpolated": annotation.interpolated if annotation else 0,
+        "tags_left_out": len(annotation.left_out) if annotation else 0,
+        "tags_note": _tags_note(annotation),
         "motion_file": entry.motion,
         "annotation_file": entry.annotation,
+        "notes": " | ".join(recording.notes),
     }

@@ -6,6 +6,7 @@ import pandas as pd
 import pympi
 import pytest
 
+from signkin import tables
 from signkin.annotation import Interval
 from signkin.errors import SignkinError
 from signkin.io.eaf import write_eaf
@@ -19,10 +20,14 @@ def test_segments_come_back_from_elan(tmp_path):
         tiers=[("Gloss", None, [Interval(1, 2, "A", "Gloss"), Interval(3, 4, "B", "Gloss")])],
     )  # fmt: skip
     about = pd.DataFrame(
-        {"recording": ["a"], "annotation_file": ["a.eaf"], "clock_offset_s": [0.25]}
-    )
+        {
+            "recording": ["a"], "annotation_file": ["a.eaf"], "clock_offset_s": [0.25],
+            "motion_file": ["a.bvh"],
+        }
+    )  # fmt: skip
+    tags = tables.empty("intervals")
     _, _, found, _, _ = tables_of_events()
-    made = copies(tmp_path, about, found)
+    made = copies(tmp_path, about, found, tags)
     assert list(made) == ["a.eaf"]
     (tmp_path / "new.eaf").write_bytes(made["a.eaf"])
     back = pympi.Elan.Eaf(str(tmp_path / "new.eaf"))
@@ -39,4 +44,4 @@ def test_segments_come_back_from_elan(tmp_path):
     assert tiers(found, "nobody")[0].intervals == ()
     (tmp_path / "a.eaf").write_text("no ELAN")
     with pytest.raises(SignkinError, match=r"a\.eaf"):
-        copies(tmp_path, about, found)
+        copies(tmp_path, about, found, tags)

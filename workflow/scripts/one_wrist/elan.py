@@ -12,6 +12,8 @@ with job(snakemake):
         Path(snakemake.params.data),
         tables.read_table(snakemake.input.about, "recordings"),
         tables.read_table(snakemake.input.boundaries, "wrist_boundaries"),
+        tables.read_table(snakemake.input.intervals, "intervals"),
+        elan=snakemake.params.elan,
     )
     for name, content in made.items():
         (folder / name).write_bytes(content)

@@ -7,31 +7,37 @@ from pathlib import Path
 import pandas as pd
 
 from signkin.annotation import Interval
-from signkin.errors import SignkinError
-from signkin.io.eaf import NewTier, insert_tiers
+from signkin.io.eaf import NewTier, elan_copy
 from signkin.joints import HANDS
+from signkin.stages.ingest import tags_of
 
 
-def refined_copies(folder: Path, about: pd.DataFrame, boundaries: pd.DataFrame) -> dict[str, bytes]:
+def refined_copies(
+    folder: Path,
+    about: pd.DataFrame,
+    boundaries: pd.DataFrame,
+    intervals: pd.DataFrame,
+    *,
+    elan: bool = True,
+) -> dict[str, bytes]:
     """Return, by file name, each ELAN file with a tier of refined signs for each hand.
 
-    folder: of the originals. about: table `recordings`. boundaries: table `boundaries`.
+    folder: of the originals. about, boundaries, intervals: tables of these names.
+    elan: whether the originals are ELAN files; else new ones are made of their tags.
     """
     out = {}
     for row in about.itertuples(index=False):
         rows = boundaries[boundaries["recording"] == row.recording]
         if rows.empty:
             continue
-        path = folder / str(row.annotation_file)
-        tiers = [NewTier(f"signkin refined {hand}", _refined(rows, hand)) for hand in HANDS]
-        try:
-            out[f"{row.recording}.eaf"] = insert_tiers(
-                path.read_bytes(),
-                tiers,
-                float(row.clock_offset_s),
-            )
-        except SignkinError as error:
-            raise error.at(file=path) from error
+        out[f"{row.recording}.eaf"] = elan_copy(
+            folder / str(row.annotation_file),
+            [NewTier(f"signkin refined {hand}", _refined(rows, hand)) for hand in HANDS],
+            elan=elan,
+            clock_offset_s=float(row.clock_offset_s),
+            tags=tags_of(intervals, str(row.recording)),
+            media_url=str(row.motion_file),
+        )
     return out
 
 

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from signkin.annotation import Interval
-from signkin.errors import SignkinError
-from signkin.io.eaf import NewTier, insert_tiers
+from signkin.io.eaf import NewTier, elan_copy
 from signkin.joints import HANDS
+from signkin.stages.ingest import tags_of
 
 
 def tiers(found: pd.DataFrame, recording: str) -> list[NewTier]:
@@ -28,15 +28,27 @@ def tiers(found: pd.DataFrame, recording: str) -> list[NewTier]:
     return out
 
 
-def copies(folder: Path, about: pd.DataFrame, found: pd.DataFrame) -> dict[str, bytes]:
-    """Return, by file name, each ELAN file with a tier of segments for each hand."""
-    out = {}
-    for row in about.itertuples(index=False):
-        path = folder / str(row.annotation_file)
-        try:
-            out[f"{row.recording}.eaf"] = insert_tiers(
-                path.read_bytes(), tiers(found, str(row.recording)), float(row.clock_offset_s)
-            )
-        except SignkinError as error:
-            raise error.at(file=path) from error
-    return out
+def copies(
+    folder: Path,
+    about: pd.DataFrame,
+    found: pd.DataFrame,
+    intervals: pd.DataFrame,
+    *,
+    elan: bool = True,
+) -> dict[str, bytes]:
+    """Return, by file name, each ELAN file with a tier of segments for each hand.
+
+    intervals: table of this name. elan: whether the originals are ELAN files; else new ones are
+    made of their tags.
+    """
+    return {
+        f"{row.recording}.eaf": elan_copy(
+            folder / str(row.annotation_file),
+            tiers(found, str(row.recording)),
+            elan=elan,
+            clock_offset_s=float(row.clock_offset_s),
+            tags=tags_of(intervals, str(row.recording)),
+            media_url=str(row.motion_file),
+        )
+        for row in about.itertuples(index=False)
+    }
