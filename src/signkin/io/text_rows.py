@@ -9,6 +9,7 @@ import codecs
 import csv
 import math
 import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -83,6 +84,11 @@ class TextTable:
         count = self.columns.count(column)
         if count == 1:
             return self.columns.index(column)
+        if not count:  # accents may be coded in another way
+            plain = [unicodedata.normalize("NFC", name) for name in self.columns]
+            wanted = unicodedata.normalize("NFC", column)
+            if plain.count(wanted) == 1:
+                return plain.index(wanted)
         if count:
             raise SignkinError(
                 f"{count} columns are called {column!r}", place="line 1", expected="one"
