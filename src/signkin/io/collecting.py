@@ -99,7 +99,7 @@ def _named(wish: str, names: Sequence[str]) -> str:
     raise SignkinError(
         f"no tier {wish!r}",
         place="tiers",
-        expected=listed(names, 60),
+        expected=listed(map(one_line, names), 60),
         todo="Tier names are case-sensitive.",
     )
 
@@ -123,13 +123,19 @@ def _fulfilling(wish: Mapping[str, str], known: Sequence[TierName]) -> tuple[str
     if not found:
         told = listed(
             (
-                t.name if t.own or not t.participant else f"{t.name} ({t.participant})"
+                one_line(t.name if t.own or not t.participant else f"{t.name} ({t.participant})")
                 for t in known
             ),
             60,
         )
         raise SignkinError(f"no tier with {tier_key(wish)}", place="tiers", expected=told)
     return tuple(dict.fromkeys(found))
+
+
+def one_line(text: str, most: int = 60) -> str:
+    """Return text as a message may quote it: without line ends, cut after `most` letters."""
+    flat = " ".join(text.split("\n"))
+    return flat if len(flat) <= most else f"{flat[:most]}…"
 
 
 def composed(text: str) -> str:
