@@ -5,6 +5,8 @@ import importlib
 import sys
 from pathlib import Path
 
+from pygments.lexers.special import TextLexer
+
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "signkin"
 sys.path.insert(0, str(PACKAGE.parent))
@@ -64,3 +66,5 @@ def with_api(app: object, page: str, source: list[str]) -> None:
 def setup(app: object) -> None:
     """Called by Sphinx."""
     app.connect("source-read", with_api)  # type: ignore[attr-defined]
+    # Drawn where the page is read on the web; drawing it here would want a script from elsewhere.
+    app.add_lexer("mermaid", TextLexer)  # type: ignore[attr-defined]

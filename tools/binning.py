@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import yaml
 from numpy.typing import NDArray
 
 from signkin.binning import Posterior, fit_many
@@ -51,6 +50,7 @@ from tools.binning_tables import (
     of_recovery,
 )
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
@@ -391,7 +391,7 @@ def splines(of: Takes, settings: Settings) -> None:
 
 def main(results: Path, data: Path) -> dict[str, str]:
     """Print every table; returns those of the page."""
-    settings = load_settings(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")))
+    settings = shipped()
     single = {name: of for name in SINGLE if (of := takes(name, results, data)) is not None}
     many = table(
         ("", "n, median bins", *(f"order {order}" for order in ORDERS)), many_boundaries(results)
@@ -426,7 +426,7 @@ def main(results: Path, data: Path) -> dict[str, str]:
 
 def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, from simulated recordings, to compare."""
-    settings = load_settings(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")))
+    settings = shipped()
     of = takes("isl-sim", results, results)
     assert of is not None
     one = outcome(of, settings, VARIANTS[SHIPPED])

@@ -5,23 +5,26 @@ python -m tools.numbers RESULTS DATA naert2017
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from signkin.coarticulation.transitions import with_normalised
 from signkin.corpus import Corpus, load_corpus
+from signkin.settings import Settings
 from signkin.stages.ingest import Ingested, ingest
 from signkin.stages.kinematics import kinematics
 from signkin.statistics.descriptive import outliers, trend
-from signkin.studies.naert2017 import coarticulation, simulation
-from signkin.studies.naert2017 import exhibits as naert2017
+from signkin.studies.naert2017 import simulation
+from signkin.studies.naert2017.figures import fig09_segmentations
+from signkin.studies.naert2017.refinement import boundaries, refinement
+from signkin.studies.naert2017.settings import TransitionSettings
+from signkin.studies.naert2017.transitions import counted, transitions
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 CHOICES: dict[str, dict[str, Any]] = {
@@ -34,47 +37,35 @@ CHOICES: dict[str, dict[str, Any]] = {
     "prominence 0.02": {"kinematics.minima.prominence": 0.02},
     "prominence 0.1": {"kinematics.minima.prominence": 0.1},
     "spacing 0.1 s": {"kinematics.minima.spacing_s": 0.1},
-    "window 0.10 s": {"refinement.window_s": 0.10},
-    "window 0.20 s": {"refinement.window_s": 0.20},
+    "window 0.10 s": {"refinement.search_window_s": 0.10},
+    "window 0.20 s": {"refinement.search_window_s": 0.20},
     "orientations to the parent": {"transitions.geodesic_frame": "parent"},
 }
 SHIPPED = "as shipped"
 Measures = Mapping[str, str]
 
 
-def changed(config: dict[str, Any], choice: dict[str, Any]) -> dict[str, Any]:
-    """Return the configuration with some keys changed."""
-    out = copy.deepcopy(config)
-    for path, value in choice.items():
-        *parents, key = path.split(".")
-        place = out
-        for parent in parents:
-            place = place[parent]
-        place[key] = value
-    return out
-
-
 def measures(
-    corpus: Corpus, read: Ingested, config: dict[str, Any], simulated: Path | None
+    corpus: Corpus, read: Ingested, settings: Settings, simulated: Path | None
 ) -> dict[str, str]:
     """Return the measures of one corpus under one configuration."""
-    found = kinematics(corpus, read.recordings, config["kinematics"])
+    found = kinematics(corpus, read.recordings, settings.kinematics)
     names = [r.name for r in read.recordings]
     intervals, minima = read.table("intervals"), found.table("minima", corpus.unit)
-    bounds = coarticulation.boundaries(corpus, names, intervals, minima, config["refinement"])
-    frames = {str(f["recording"].iloc[0]): f for f in found.frames}
-    made = coarticulation.transitions(corpus, read.recordings, frames, intervals, bounds, config)
-    raw = made[1]
-    moves = with_normalised(raw, corpus.unit)
-    quality, _ = coarticulation.refinement(
+    bounds = boundaries(corpus, names, intervals, minima, settings.refinement)
+    frames = pd.concat(found.frames)
+    chosen = TransitionSettings.of(settings)
+    made = transitions(corpus, read.recordings, frames, intervals, bounds, chosen)
+    moves = with_normalised(made["raw_transitions"], corpus.unit)
+    quality, _ = refinement(
         corpus, read.table("recordings"), intervals, minima, bounds,
-        {**config["refinement"], "draws": 300}, config["seed"],
+        settings.refinement.model_copy(update={"draws": 300}), settings.seed,
     )  # fmt: skip
     right = quality[quality["hand"] == "right"].set_index("measure")
     near = right.loc["tags with a minimum within the window"]
-    pairs = naert2017.segmentation_pairs(moves, corpus.unit).query("hand == 'right'")
+    pairs = fig09_segmentations.data(moves, corpus.unit).query("hand == 'right'")
     change = (pairs["refined_duration_s"] - pairs["manual_duration_s"]).abs()
-    whole = naert2017.counted(moves)
+    whole = counted(moves)
     there = whole[whole["mean_distance"].notna()]
     line = trend(there["mean_distance"].to_numpy(), there["duration_s"].to_numpy())
     out = {
@@ -101,13 +92,12 @@ def of_corpus(
     name: str, folder: Path, choices: Mapping[str, dict[str, Any]]
 ) -> dict[str, dict[str, str]]:
     """Return the measures of a corpus under each choice. folder: its recordings."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
     corpus = load_corpus(ROOT / "corpora" / name)
     read = ingest(corpus, folder, corpus.entries)
     simulated = folder if corpus.simulator else None
     recorded = corpus.settings["motion"]["orientations"] == "recorded"
     return {
-        choice: measures(corpus, read, changed(config, keys), simulated)
+        choice: measures(corpus, read, shipped(keys), simulated)
         for choice, keys in choices.items()
         if recorded or "parent" not in choice
     }
@@ -162,7 +152,7 @@ def main(results: Path, data: Path) -> dict[str, str]:
         rows = ([choice, *row.values()] for choice, row in found[name].items())
         print(f"\n**{name}**\n\n{table(['choice', *columns], rows)}")
         moves = pd.read_csv(results / f"naert2017/{name}/transitions.csv", dtype={"type": str})
-        durations = naert2017.counted(moves)["duration_s"].to_numpy(dtype=float)
+        durations = counted(moves)["duration_s"].to_numpy(dtype=float)
         counts = {f: int(np.sum(outliers(durations, f))) for f in (1.5, 3.0)}
         print(f"\nOutliers by fences of 1.5 and 3 interquartile ranges: {counts}", flush=True)
     return places(found["lsf-sim"], found["dgs-1984189"])

@@ -25,6 +25,7 @@ import yaml
 
 from signkin.provenance import code_digest
 from tools import marked
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "interpretations.md"
@@ -56,16 +57,25 @@ def _digest(parts: Iterable[bytes]) -> str:
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:12]
 
 
+def _described(folder: Path) -> list[bytes]:
+    """Return what a corpus's folder says of its recordings and how they are read."""
+    about = yaml.safe_load((folder / "corpus.yaml").read_text(encoding="utf-8"))
+    kept = {key: about.get(key) for key in ("motion", "annotation", "noise_sd", "checksums")}
+    tables = (folder / name for name in ("recordings.csv", "signs.csv"))
+    return [
+        json.dumps(kept, sort_keys=True).encode(),
+        *(table.read_bytes() for table in tables if table.is_file()),
+    ]
+
+
 def inputs(program: str) -> dict[str, str]:
     """Return digests of what the numbers of a program depend on, as they are now."""
     of = PROGRAMS[program]
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    chosen = {section: config.get(section) for section in of.sections}
-    folders = (ROOT / "corpora" / corpus for corpus in of.corpora)
-    files = (f for folder in folders for f in sorted(folder.iterdir()) if f.is_file())
+    chosen = shipped().model_dump(include=set(of.sections))
+    corpora = [_described(ROOT / "corpora" / corpus) for corpus in of.corpora]
     return {
         "settings": _digest([json.dumps(chosen, sort_keys=True).encode()]),
-        "corpora": _digest(part for f in files for part in (f.name.encode(), f.read_bytes())),
+        "corpora": _digest(part for corpus in corpora for part in corpus),
         "code": code_digest(ROOT / "tools" / f"{program}.py")[:12],
     }
 

@@ -13,7 +13,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, make_interp_spline
 
@@ -30,6 +29,7 @@ from signkin.powerlaw import (
 )
 from signkin.stages.ingest import ingest
 from tools.numbers import table
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 CORPORA = ("isl-sim", "dgs-1984189", "libras", "isl-kinect", "auslan-hq")
@@ -285,8 +285,7 @@ def main(results: Path, data: Path) -> dict[str, str]:
 
 def settings() -> WarpSettings:
     """Return the settings of config.yaml."""
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    return WarpSettings(**config["powerlaw"])
+    return WarpSettings(**dict(shipped().powerlaw))
 
 
 def sample(results: Path) -> tuple[str, str]:

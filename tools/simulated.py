@@ -6,15 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from signkin import seeds
 from signkin.corpus import load_corpus
 from signkin.io.wide_csv import write_wide_csv
 from signkin.simulate import isl, lsf
+from tools.shipped import shipped
 
 ROOT = Path(__file__).resolve().parents[1]
-CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+SETTINGS = shipped()
 
 
 def simulate_lsf() -> lsf.SimulatedCorpus:
@@ -29,8 +29,8 @@ def simulate_lsf() -> lsf.SimulatedCorpus:
         table2=pd.read_csv(printed / "table2.csv", **text),
         theta=np.array([float(constants[f"theta_{t}"]) for t in lsf.TERMS]),
         mean_error_s=float(constants["mean_error"]),
-        euclidean_unit_m=CONFIG["transitions"]["euclidean_unit_m"],
-        rng=seeds.stream(CONFIG["seed"], corpus.name),
+        euclidean_unit_m=SETTINGS.transitions.euclidean_unit_m,
+        rng=seeds.stream(SETTINGS.seed, corpus.name),
     )
 
 
@@ -50,6 +50,6 @@ def write_isl(folder: Path) -> None:
     """Write isl-sim: the motion of every recording."""
     folder.mkdir(parents=True)
     corpus = load_corpus(ROOT / "corpora" / "isl-sim")
-    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, CONFIG["seed"])
+    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, SETTINGS.seed)
     for entry, take in zip(corpus.entries, takes, strict=True):
         write_wide_csv(folder / entry.motion, isl.motion_columns(take), corpus.noise_sd)

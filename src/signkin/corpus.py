@@ -99,6 +99,11 @@ class Corpus:
         return all(entry.sign for entry in self.entries)
 
     @property
+    def skips(self) -> bool:
+        """Whether a recording that cannot be used is left out instead of ending the run."""
+        return bool(self.settings.get("on_error", "stop") == "skip")
+
+    @property
     def noise_sd(self) -> float:
         """Standard deviation of the device's noise in the unit after reading (m or px)."""
         return float(self.settings["noise_sd"])
@@ -208,6 +213,7 @@ def load_corpus(folder: Path) -> Corpus:
     checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
+    _check_shared_tables(settings["motion"], entries, folder / "recordings.csv")
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     return Corpus(folder.name, folder, settings, entries, signs)
@@ -217,6 +223,16 @@ def _given(content: dict[str, Any]) -> dict[str, Any]:
     """Return a mapping without the keys that are null, which say the same as none."""
     inner = {k: _given(v) if isinstance(v, dict) else v for k, v in content.items()}
     return {k: v for k, v in inner.items() if v is not None}
+
+
+def _not_utf8(path: Path, error: UnicodeDecodeError) -> SignkinError:
+    return SignkinError(
+        f"byte 0x{error.object[error.start]:02x} is not UTF-8",
+        file=path,
+        place=f"line {error.object[: error.start].count(10) + 1}",
+        expected="text in UTF-8",
+        todo="Save the file as UTF-8.",
+    )
 
 
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
@@ -271,6 +287,8 @@ def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, st
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
+    except UnicodeDecodeError as error:
+        raise _not_utf8(path, error) from error
     seen: dict[str, int] = {}
     reader = csv.DictReader(text.splitlines(), strict=True)
     for row in reader:
@@ -328,6 +346,22 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
 
 
+def _check_shared_tables(motion: Mapping[str, Any], entries: tuple[Entry, ...], file: Path) -> None:
+    """Refuse two recordings of one table that nothing tells apart: each would be all of it."""
+    if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
+        return
+    parts: dict[str, Entry] = {}
+    for entry in entries:
+        first = parts.setdefault(entry.motion, entry)
+        if first.part != entry.part:
+            raise SignkinError(
+                f"{entry.recording} and {first.recording} are parts of {entry.motion}",
+                file=file,
+                place=f"line {entry.line}",
+                expected="motion.options.recording_column in corpus.yaml, which tells them apart",
+            )
+
+
 def _check_repetition(
     key: tuple[str, str, int], line: int, seen: dict[tuple[str, str, int], int], path: Path
 ) -> None:
@@ -383,16 +417,46 @@ def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> P
 
 
 def check_files(corpus: Corpus, folder: Path) -> None:
-    """Refuse a corpus whose data folder lacks a file that recordings.csv names."""
+    """Refuse a corpus whose data folder lacks a file that recordings.csv names, or leads out of it.
+
+    Where the corpus says `on_error: skip`, that is found when the recording is read.
+    """
+    if corpus.skips:
+        return
     for entry in corpus.entries:
         for name in (entry.motion, entry.annotation):
-            if name and not (folder / name).is_file():
-                raise SignkinError(
-                    f"there is no file {folder / name}",
-                    file=corpus.folder / "recordings.csv",
-                    place=f"line {entry.line}",
-                    expected="the recording's file in the data folder",
-                )
+            if name:
+                data_file(corpus, folder, entry, name)
+
+
+def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
+    """Return the path of a recording's file: one that is there, in the data folder.
+
+    A path that climbs out of the folder, and a link that leads out of it or nowhere, are errors:
+    recordings.csv may come from anywhere.
+    """
+    path = folder / name
+    try:
+        there = path.is_file() or path.is_dir()
+        outside = not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError) as error:  # links in a ring, zero bytes
+        there, outside, path = False, False, Path(f"{folder}/{name!r} ({type(error).__name__})")
+    if outside:
+        raise SignkinError(
+            f"{name} leads out of the data folder {folder}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="a file below it",
+            todo="Copy or link the files into the data folder itself.",
+        )
+    if not there:
+        raise SignkinError(
+            f"there is no file {path}",
+            file=corpus.folder / "recordings.csv",
+            place=f"line {entry.line}",
+            expected="the recording's file in the data folder",
+        )
+    return path
 
 
 def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
@@ -400,7 +464,7 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
     expected = corpus.settings.get("checksums", {}).get(name)
     if expected is None:
         return
-    found = hashlib.sha256((folder / name).read_bytes()).hexdigest()
+    found = _digest(folder / name)
     if found != expected:
         raise SignkinError(
             f"the SHA-256 of {name} is {found}",
@@ -409,6 +473,17 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
             expected=expected,
             todo="Get the file again, or correct the checksum if the change is meant.",
         )
+
+
+def _digest(path: Path) -> str:
+    """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
+    if not path.is_dir():
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    whole = hashlib.sha256()
+    for file in sorted(path.iterdir()):
+        if file.is_file():
+            whole.update(f"{file.name}\0{hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    return whole.hexdigest()
 
 
 def data_dir_of(data_dir: str | None) -> str | None:

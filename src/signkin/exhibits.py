@@ -18,10 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from signkin import tables
 from signkin.errors import SignkinError, listed
+from signkin.yaml_file import read_yaml
 
 FILE = "exhibits.yaml"
 KINDS = ("figure", "table")
@@ -58,17 +57,7 @@ def exhibits(paper: str | Path) -> tuple[Exhibit, ...]:
     Raises SignkinError where the list cannot be read, or an entry lacks or doubles something.
     """
     path = Path(paper) / FILE
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise SignkinError(
-            "cannot be read", file=path, expected="the paper's figures and tables as YAML"
-        ) from error
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f"line {mark.line + 1}" if mark else None
-        raise SignkinError("is no YAML", file=path, place=place) from error
-    entries = content.get("exhibits") if isinstance(content, dict) else None
+    entries = read_yaml(path).get("exhibits")
     if not isinstance(entries, list) or not entries:
         raise SignkinError("no list of exhibits", file=path, expected="a list under `exhibits`")
     out: dict[str, Exhibit] = {}

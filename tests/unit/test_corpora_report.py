@@ -1,7 +1,7 @@
 import pandas as pd
 
 from signkin.pages import corpora as corpora_report
-from signkin.studies.naert2017.exhibits import spread
+from signkin.pages.speeds import spread
 
 
 def about(cells):

@@ -94,8 +94,8 @@ def test_formats_of_the_model_are_those_that_can_be_read():
     ("settings", "told"),
     [
         (
-            changed(motion__unit="inch"),
-            r"corpus.yaml, key motion.unit: 'inch'; expected 'm', 'cm', 'mm'",
+            changed(motion__unit="ell"),
+            r"corpus.yaml, key motion.unit: 'ell'",
         ),
         (changed(noise_sd=None), r"corpus.yaml, key noise_sd: the key noise_sd is missing"),
         (changed(motion__rate_hz=0), r"key motion.rate_hz: 0; expected greater than 0"),

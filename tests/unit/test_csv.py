@@ -44,7 +44,8 @@ def test_empty_cells_are_gaps(two):
         ({"joints": {"right_wrist": ["rx", "rz"]}}, r"no column 'rz'"),
         ({"joints": {"right_wrist": "rx"}}, r"right_wrist has the columns 'rx'"),
         ({"joints": None}, r"no joint map"),
-        ({"rate_hz": None}, r"the rate is missing"),
+        ({"rate_hz": None, "frame_column": "frame"}, r"the rate is missing"),
+        ({}, r"line 3: frame 9 follows 10; .*frame_column: frame"),
     ],
 )
 def test_bad_declarations_are_refused(two, change, told):

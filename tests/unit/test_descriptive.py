@@ -97,6 +97,15 @@ def test_one_value_has_no_sd_and_says_so(published):
     assert found.loc["2010", "equal"] == "yes"
 
 
+def test_the_papers_zero_for_one_value_sets_no_decimals(published):
+    """Type 2010 has one value in the paper and SD 0 in print; two values have an SD of 0.119."""
+    times = [0.3, 0.468]
+    found = table2(rows(t2010=times), np.zeros(2, dtype=bool), published).set_index("type")
+    assert found.loc["2010", "printed_sd"] == "0.11879"
+    assert float(found.loc["2010", "printed_sd"]) == pytest.approx(np.std(times, ddof=1), abs=5e-6)
+    assert found.loc["2010", "printed_mean"] == "0.38400"
+
+
 def test_moving_one_tag_changes_one_row(published):
     base = rows(t0000=[0.11, 0.24, 0.26, 0.30, 0.30, 0.40], t1100=[0.21, 0.28, 0.34, 0.39])
     moved = base.copy()

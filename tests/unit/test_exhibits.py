@@ -10,7 +10,8 @@ import yaml
 from signkin import tables
 from signkin.errors import SignkinError
 from signkin.exhibits import exhibits, files, of_groups
-from signkin.report.drawn import Drawn, write_figures
+from signkin.report.drawn import Drawn, drawings, write_figures
+from signkin.studies.naert2017.figures import of_synthesis, of_transitions
 
 ENTRY = {
     "id": "fig10",
@@ -59,7 +60,7 @@ def test_the_papers_own_lists_are_read(root, paper):
         ([changed(label="Plate 3")], "the label 'Plate 3'; expected Figure or Table"),
         ([changed(label="Figure")], "the label 'Figure'"),
         ([changed(table="fig99")], "no kind of table 'fig99'"),
-        ([ENTRY, ENTRY], r"exhibit 2: the id fig10 stands twice"),
+        ([ENTRY, dict(ENTRY)], r"exhibit 2: the id fig10 stands twice"),
         (["fig10"], "exhibit 1: no mapping"),
         ([], "no list of exhibits"),
     ],
@@ -71,10 +72,10 @@ def test_a_bad_list_names_file_place_and_key(listing, entries, told):
 
 
 def test_a_file_that_is_not_there_or_no_yaml_is_told(tmp_path):
-    with pytest.raises(SignkinError, match=r"exhibits.yaml: cannot be read"):
+    with pytest.raises(SignkinError, match=r"exhibits.yaml: there is no such file"):
         exhibits(tmp_path)
     (tmp_path / "exhibits.yaml").write_text("exhibits:\n  - id: [", encoding="utf-8")
-    with pytest.raises(SignkinError, match=r"exhibits.yaml, line \d: is no YAML"):
+    with pytest.raises(SignkinError, match=r"exhibits.yaml, line \d: .*; expected YAML"):
         exhibits(tmp_path)
 
 
@@ -101,6 +102,22 @@ def test_figures_are_written_by_their_names_not_by_their_order(listing, tmp_path
     assert tables.read_table(out / "fig07.csv", "fig10")["n"].tolist() == [7]
     told = json.loads((out / "captions.json").read_text(encoding="utf-8"))
     assert list(told.items()) == [("fig10", "of fig10"), ("fig07", "of fig07")]
+
+
+@pytest.mark.parametrize(
+    ("draw", "groups"),
+    [(of_transitions.DRAWINGS, ["figures"]), (of_synthesis.DRAWINGS, ["composition", "truth"])],
+)
+def test_naerts_list_and_drawings_are_the_same_figures(root, draw, groups):
+    listing = of_groups(exhibits(root / "papers" / "naert2017"), *groups)
+    assert {exhibit.stem for exhibit in listing} == set(draw)
+    assert all(exhibit.table and exhibit.kind == "figure" for exhibit in listing)
+
+
+def test_a_figure_without_a_drawing_is_told(listing):
+    found = listing(changed(id="fig99", label="Figure 99"))
+    with pytest.raises(SignkinError, match=r"nothing draws fig99; expected fig10"):
+        drawings({"fig10": lambda source: source}, None, found)
 
 
 def test_a_figure_that_nothing_draws_is_told(listing, tmp_path):

@@ -6,12 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from signkin import Interval
+from signkin import Interval, SignkinError
 from signkin.coarticulation import refine
 from signkin.coarticulation.segmentation import (
     boundary_rows,
     chance_distances,
     nearest,
+    refine_each,
     refinement_quality,
     truth_errors,
     truth_summary,
@@ -61,6 +62,38 @@ def test_a_boundary_that_is_one_instant_moves_as_one():
     refined, moved, _ = moved_to([[0.5, 1.0], [1.0, 1.6]], [1.04, 0.9])
     assert refined == [[0.5, 1.04], [1.04, 1.6]]
     assert moved == [[False, True], [True, False]]
+
+
+def test_the_plain_rule_moves_each_tag_on_its_own():
+    tags, minima = np.array([[0.5, 1.0], [1.1, 1.6]]), np.array([1.04, 1.2])
+    refined, moved, closest = refine_each(tags, minima)
+    assert refined.tolist() == [[0.5, 1.04], [1.04, 1.6]]  # both on one minimum
+    assert moved.tolist() == [[False, True], [True, False]]
+    ours, _, same = refine(tags, minima)
+    assert int((ours != refined).sum()) == 1 and (same == closest).all()
+    assert refine_each(tags, np.empty(0))[0].tolist() == tags.tolist()
+
+
+@pytest.mark.parametrize("rule", [refine, refine_each])
+def test_a_tag_without_a_time_stays_so_and_is_not_moved(rule):
+    whole = rule(np.array([[0.5, 1.0], [1.1, 1.6]]), np.array([0.52, 1.04, 1.2]))
+    for spoilt in (
+        np.array([[0.5, 1.0], [np.nan, 1.6]]),
+        np.ma.array([[0.5, 1.0], [1.1, 1.6]], mask=[[0, 0], [1, 0]]),
+    ):
+        refined, moved, closest = rule(spoilt, np.array([0.52, 1.04, 1.2]))
+        assert np.isnan(refined[1, 0]) and np.isnan(closest[1, 0]) and not moved[1, 0]
+        assert (refined[0] == whole[0][0]).all() and moved.sum() == 2
+
+
+@pytest.mark.parametrize("rule", [refine, refine_each])
+def test_a_minimum_without_a_time_is_refused(rule):
+    tags = np.array([[0.5, 1.0]])
+    for minima in (np.array([0.5, np.nan, 2.0]), np.ma.array([0.5, 1.0], mask=[0, 1])):
+        with pytest.raises(SignkinError, match=f"1 of {len(minima)} minima have no time"):
+            rule(tags, minima)
+    with pytest.raises(SignkinError, match="the window is nan s"):
+        rule(tags, np.array([0.5]), window_s=np.nan)
 
 
 def test_a_start_stays_before_its_end():
@@ -148,6 +181,17 @@ def test_a_tag_that_loses_its_minimum_says_so():
     assert (left["note"] == "this hand has no speed minimum").all()
 
 
+def test_tags_that_the_plain_rule_puts_elsewhere_are_counted():
+    signs = [Interval(0.5, 1.0, "A", "s"), Interval(1.1, 1.6, "B", "s")]
+    minima = {"right": np.array([1.04, 1.2]), "left": np.array([1.04])}
+    table = boundary_rows(signs, minima, 0.15, 1e-6).assign(recording="r")
+    found = refinement_quality(table, {}, 0.15, 1e-6).set_index(["measure", "hand"])
+    elsewhere = found.loc["tags that the paper's plain rule puts elsewhere", "value"]
+    assert elsewhere.to_dict() == {"right": 0.25, "left": 0.25}
+    second = found.loc["tags moved to a minimum that is not the nearest", "value"]
+    assert second.to_dict() == {"right": 0.25, "left": 0}
+
+
 def test_chance_is_on_frames_inside_the_annotation_and_seeded():
     def draw():
         return chance_distances(SIGNS, np.array([2.0]), 10.0, 50, np.random.default_rng(3))
@@ -168,6 +212,11 @@ def test_quality_against_chance():
     assert inside[["chance", "chance_low", "chance_high"]].tolist() == [0.5, 0.5, 0.5]
     assert found.loc[("right", "tags moved"), "value"] == 0.75
     assert found.loc[("left", "tags moved"), "value"] == 0.25
+    assert found.loc[("right", "tags moved"), "chance"] == 0.5
+    low, high = found.loc[("right", "tags moved"), ["low", "high"]]
+    assert (low, high) == pytest.approx((0.1941, 0.9937), abs=1e-4)  # exact, 3 of 4
+    elsewhere = found.loc[("right", "tags that the paper's plain rule puts elsewhere")]
+    assert elsewhere["value"] == 0 and elsewhere["note"].startswith("0 of 4 tags")
     offset = found.loc[("both", "median offset, left after right")]
     assert offset["value"] == pytest.approx(0.05)
     assert offset["n"] == 1

@@ -11,15 +11,16 @@ from hypothesis import strategies as st
 from signkin import tables
 from signkin.coarticulation.sign_speeds import continuous, sign_speeds, step_angles
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.statistics import anova, association, equivalence, mixed, posthoc
 from signkin.statistics.effects import cohens_d, share_interval
 from signkin.statistics.findings import Finding, Kind, grouped
+from signkin.statistics.multiplicity import holm
 from signkin.studies.naert2017 import (
     durations_models,
     durations_statistics,
     durations_surface,
 )
+from signkin.studies.naert2017.settings import DurationSettings
 
 NAN = float("nan")
 
@@ -153,9 +154,7 @@ def test_speeds_of_signs_that_move_and_turn_steadily():
 
 @pytest.fixture(scope="module")
 def config():
-    content = legacy(Settings())
-    content["durations"]["draws"] = 100
-    return content
+    return DurationSettings.of(Settings(durations={"draws": 100}))
 
 
 def corpus(n=40, recordings=2, seed=3, **changes):
@@ -219,9 +218,53 @@ def test_in_words_no_difference_is_no_equivalence(config):
     # Twelve transitions that scatter by 0.3 s: too few to show anything.
     rows, _ = corpus(n=12, duration_s=rng.normal(1, 0.3, 12))
     found = durations_statistics.statistics("c", rows, "m", config, 1)
-    words = found[(found["test"] == "in words") & (found["question"] == "symmetry")]["note"].iloc[0]
+    words = found[(found["test"] == "in words") & (found["question"] == "hands")]["note"].iloc[0]
     assert words.startswith("No difference was found, which is no evidence that there is none")
     assert "80% power" in words
+
+
+def test_symmetry_is_that_of_two_handed_signs(config):
+    """One-handed signs are long here; they are no asymmetric ones, so symmetry plays no part."""
+    kinds = ["0000", "0010", "0011", "1000", "1010", "1011", "1100", "1110", "1111", "2020"] * 12
+    rng = np.random.default_rng(8)
+    one = np.array([(k[0] == "0") + (k[2] == "0") for k in kinds])
+    y = np.round(0.3 + 0.2 * one + rng.normal(0, 0.01, 120), 4)
+    rows, _ = corpus(n=120, type=kinds, duration_s=y)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
+    found = found[(found["question"] == "symmetry") & (found["kind"] != "words")]
+    crossed = found[found["decisive"]]
+    assert set(crossed["n"]) == {48} and (crossed["p"] > 0.05).all()
+    assert crossed["note"].str.contains("72 transitions left out: a sign that is not two-").all()
+    (before,) = found.loc[
+        (found["comparison"] == "symmetry before: asymmetric - symmetric")
+        & (found["kind"] == "equivalence"), "n",
+    ]  # fmt: skip
+    assert before == 72  # the sign before is two-handed in six of ten types
+
+
+def test_deciding_tests_of_a_corpus_are_corrected_together(config):
+    rows, _ = corpus(n=120)
+    found = durations_statistics.statistics("c", rows, "m", config, 1)
+    decisive = found[found["decisive"] & (found["outliers"] != "left out")]
+    p, m = np.sort(decisive["p"]), len(decisive)
+    by_hand = np.minimum(np.maximum.accumulate(p * (m - np.arange(m))), 1)
+    assert np.sort(decisive["p_holm"]) == pytest.approx(by_hand)
+    assert decisive["note"].str.contains(f"Holm: one of {m} tests").all()
+    pearson = found[(found["test"] == "Pearson") & found["p"].notna()]
+    assert pearson["p_holm"].min() == pytest.approx(min(1, pearson["p"].min() * len(pearson)))
+    assert not found.loc[found["p_holm"].isna(), "note"].str.contains("Holm").any()
+
+
+def test_holm_keeps_its_level_where_nothing_differs():
+    """Of 400 families of ten true hypotheses, 5 % have any adjusted p below 0.05, not 40 %."""
+    rng = np.random.default_rng(11)
+    raw, adjusted = 0, 0
+    for p in rng.uniform(size=(400, 10)):
+        family = holm([Finding("t", Kind.DIFFERENCE, p=x) for x in p], lambda f: True)
+        raw += min(p) < 0.05
+        adjusted += min(f.p_holm for f in family) < 0.05
+    assert raw / 400 > 0.3
+    assert 0.02 < adjusted / 400 < 0.085
 
 
 def test_models_on_a_corpus(config):
@@ -230,6 +273,9 @@ def test_models_on_a_corpus(config):
     found, predicted = durations_models.models("c", learn, config, CONSTANTS, 1)
     assert set(found["model"]) == set(durations_models.MODELS)
     assert (found["mean_error_s"].notna() | found["note"].str.startswith("not testable")).all()
+    rows = found.set_index(["model", "evaluation"]).loc[("MEAN", "in_sample")]
+    assert rows["bias_low_s"] < 0 < rows["bias_high_s"]  # the mean is no bias, in sample
+    assert rows["share_too_long_low"] < rows["share_too_long"] < rows["share_too_long_high"]
     errors = found.set_index(["model", "evaluation"])["mean_error_s"]
     assert errors["SURFACE", "leave_one_out"] < errors["MEAN", "leave_one_out"]
     assert errors["SURFACE", "in_sample"] <= errors["SURFACE", "leave_one_out"]
@@ -246,6 +292,12 @@ def test_models_that_a_corpus_does_not_allow_say_why(config):
     notes = found.set_index(["model", "evaluation"])["note"]
     assert "no orientations" in notes["SURFACE", "leave_one_out"]
     assert "one recording only" in notes["LINEAR", "leave_one_recording_out"]
+    assert notes["SIMPLE", "in_sample"].endswith("no geodesic distance: its Euclidean part alone")
+    _, predicted = durations_models.models("c", learn, config, CONSTANTS, 1)
+    simple = predicted.loc[predicted["model"] == "SIMPLE", "predicted_s"].to_numpy()
+    # Eq. 3 with alpha 1; 0.1 m over m/s is the same time.
+    linear = learn.data.linear_speed.sum(axis=1)
+    assert simple == pytest.approx(2 * learn.data.euclidean / linear)
     assert np.isfinite(
         found.set_index(["model", "evaluation"])["mean_error_s"]["LINEAR", "in_sample"]
     )

@@ -13,8 +13,9 @@ import pytest
 
 from signkin import read_annotation, tables
 from signkin.coarticulation.transitions import utterance_names
+from signkin.exhibits import exhibits
 from signkin.statistics import descriptive
-from signkin.studies.naert2017 import exhibits as naert2017
+from signkin.studies.naert2017.transitions import counted
 from support.runs import checked, command, environment, prepare, run
 
 
@@ -105,7 +106,7 @@ def test_transitions_of_every_segmentation_and_hand(simulated_run):
         ("refined", "right"): 89, ("refined", "left"): 89,
     }  # fmt: skip
     assert set(moves["type_source"]) == {"lexicon"}
-    whole = naert2017.counted(moves)
+    whole = counted(moves)
     assert whole["geodesic_norm"].mean() == pytest.approx(0, abs=1e-9)
     assert np.ptp(whole["euclidean_norm"]) == pytest.approx(1)
     corners = tables.read_table(simulated_run.results / "naert2017/lsf-sim/diamond.csv", "diamond")
@@ -120,16 +121,21 @@ def test_what_is_missing_is_said(simulated_run):
     assert not re.search(r">\s*nan\s*<", page, flags=re.IGNORECASE)
 
 
-def test_every_table_is_as_the_dictionary_says(simulated_run):
+def test_every_table_is_as_the_dictionary_says(simulated_run, root):
+    drawn = {
+        paper: {exhibit.stem: exhibit.table for exhibit in exhibits(root / "papers" / paper)}
+        for paper in ("naert2017", "endres2013")
+    }
     seen = 0
     for path in sorted(simulated_run.results.glob("**/*.csv")):
         if "printed" in path.parts:  # copies of the papers' own tables
             continue
-        kind = path.stem if path.stem in tables.TABLES else naert2017.FIGURE_TABLES.get(path.stem)
+        study = path.relative_to(simulated_run.results).parts[0]
+        kind = path.stem if path.stem in tables.TABLES else drawn.get(study, {}).get(path.stem)
         if path.parent.parent.name == "shards" and path.stem == "transitions":
             kind = "raw_transitions"
-        if "endres2013" in path.parts and path.stem.startswith("fig"):
-            kind = "fig01_powerlaw" if path.stem == "fig01" else "endres_figure"
+        if study == "endres2013" and path.stem == "fig_one_wrist":
+            kind = "endres_figure"
         if kind:
             columns = list(pd.read_csv(path, nrows=0).columns)
             assert columns == tables.TABLES[kind].names(), path

@@ -1,8 +1,18 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
+from signkin.exhibits import exhibits, files, of_groups
+from signkin.studies.naert2017.settings import (
+    DurationSettings,
+    FigureSettings,
+    GridSettings,
+    SynthesisSettings,
+    TableSettings,
+    TransitionSettings,
+)
 
-SYNTHESIS = {
-    k: config[k] for k in ("kinematics", "transitions", "durations", "synthesis")
-}
+NAERT = PLAN.papers / "naert2017"
+NAERT_EXHIBITS = exhibits(NAERT)
+SYNTHESIS_FIGURES = ("composition", "truth")  # groups of its list
+SYNTHESIS = SynthesisSettings.of(SETTINGS)
 
 
 rule refine:
@@ -19,7 +29,7 @@ rule refine:
     params:
         code=PLAN.digest("naert2017/refine.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings=config["refinement"],
+        settings=SETTINGS.refinement,
     script:
         "../scripts/naert2017/refine.py"
 
@@ -34,14 +44,14 @@ rule transitions:
         description=lambda w: PLAN.description(w.corpus),
     output:
         sign_types="<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
-        transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
-        speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
+        raw_transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
+        transition_speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
     log:
         "<logs>/naert2017/{corpus}/{shard}/transitions.log",
     params:
         code=PLAN.digest("naert2017/transitions.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings={k: config[k] for k in ("kinematics", "transitions", "sign_types")},
+        settings=TransitionSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/transitions.py"
 
@@ -49,25 +59,13 @@ rule transitions:
 rule naert_tables:
     """Table 1, Table 2, quality of the refinement, for a whole corpus."""
     input:
-        boundaries=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/boundaries.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        sign_types=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        transitions=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        boundaries=of_shards(rules.refine.output.boundaries),
+        sign_types=of_shards(rules.transitions.output.sign_types),
+        transitions=of_shards(rules.transitions.output.raw_transitions),
         about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         minima=rules.gather.output.minima,
-        published=PLAN.papers / "naert2017" / "table2.csv",
+        published=NAERT / "table2.csv",
     output:
         boundaries="<results>/naert2017/{corpus}/boundaries.csv",
         sign_types="<results>/naert2017/{corpus}/sign_types.csv",
@@ -77,14 +75,15 @@ rule naert_tables:
         table1="<results>/naert2017/{corpus}/table1.csv",
         table2="<results>/naert2017/{corpus}/table2.csv",
         refinement="<results>/naert2017/{corpus}/refinement.csv",
+        tag_chance="<results>/naert2017/{corpus}/tag_chance.csv",
         quality=multiext("<results>/naert2017/{corpus}/fig_refinement", ".svg", ".pdf"),
     log:
         "<logs>/naert2017/{corpus}/tables.log",
     params:
         code=PLAN.digest("naert2017/tables.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={k: config[k] for k in ("refinement", "transitions")},
+        seed=SETTINGS.seed,
+        settings=TableSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/tables.py"
 
@@ -96,24 +95,12 @@ rule naert_figures:
         sign_types=rules.naert_tables.output.sign_types,
         transitions=rules.naert_tables.output.transitions,
         minima=rules.gather.output.minima,
-        frames=lambda w: collect(
-            "<results>/{corpus}/kinematics/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        published=PLAN.papers / "naert2017" / "table2.csv",
+        frames=of_shards(rules.kinematics.output.frames),
+        published=NAERT / "table2.csv",
+        exhibits=NAERT / "exhibits.yaml",
     output:
-        svg=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.svg",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
-        ),
-        pdf=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.pdf",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
-        ),
-        csv=collect(
-            "<results>/naert2017/{{corpus}}/{figure}.csv",
-            figure=[f"fig{n:02d}" for n in range(4, 11)],
+        figures=files(
+            of_groups(NAERT_EXHIBITS, "figures"), "<results>/naert2017/{corpus}"
         ),
         diamond="<results>/naert2017/{corpus}/diamond.csv",
         captions="<results>/naert2017/{corpus}/captions.json",
@@ -122,7 +109,8 @@ rule naert_figures:
     params:
         code=PLAN.digest("naert2017/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        settings={k: config[k] for k in ("kinematics", "transitions")},
+        groups=("figures",),
+        settings=FigureSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/figures.py"
 
@@ -153,7 +141,7 @@ rule simulation_check:
         transitions=rules.naert_tables.output.transitions,
         truth="<results>/{corpus}/simulated/truth.csv",
         design="<results>/{corpus}/simulated/design.csv",
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
     output:
         truth_error="<results>/naert2017/{corpus}/truth_error.csv",
         surface="<results>/naert2017/{corpus}/surface.csv",
@@ -162,8 +150,8 @@ rule simulation_check:
         "<logs>/naert2017/{corpus}/simulation.log",
     params:
         code=PLAN.digest("naert2017/simulation_check.py"),
-        seed=config["seed"],
-        settings={k: config[k] for k in ("refinement", "transitions")},
+        seed=SETTINGS.seed,
+        settings=TableSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/simulation_check.py"
 
@@ -180,25 +168,21 @@ rule naert2017:
 rule synthesis:
     """Every captured transition made anew by each method (5.2)."""
     input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/recordings/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        recordings=of_shards(rules.ingest.output.recordings),
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
     output:
         synthesis="<results>/naert2017/{corpus}/synthesis/synthesis.csv",
-        summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
+        synthesis_summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
     log:
         "<logs>/naert2017/{corpus}/synthesis.log",
     params:
         code=PLAN.digest("naert2017/synthesis.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
+        seed=SETTINGS.seed,
         settings=SYNTHESIS,
-        draws=config["refinement"]["draws"],
+        draws=SETTINGS.refinement.draws,
     script:
         "../scripts/naert2017/synthesis.py"
 
@@ -210,16 +194,13 @@ rule synthesis_figures:
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
+        exhibits=NAERT / "exhibits.yaml",
         synthesis=rules.synthesis.output.synthesis,
     output:
-        multiext(
-            "<results>/naert2017/{corpus}/fig",
-            *[
-                f"{n}.{s}"
-                for n in ("01", "02", "12", "13")
-                for s in ("svg", "pdf", "csv")
-            ],
+        figures=files(
+            of_groups(NAERT_EXHIBITS, *SYNTHESIS_FIGURES),
+            "<results>/naert2017/{corpus}",
         ),
         captions="<results>/naert2017/{corpus}/synthesis/captions.json",
     log:
@@ -227,6 +208,7 @@ rule synthesis_figures:
     params:
         code=PLAN.digest("naert2017/synthesis_figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        groups=SYNTHESIS_FIGURES,
         settings=SYNTHESIS,
     script:
         "../scripts/naert2017/synthesis_figures.py"
@@ -237,23 +219,16 @@ if PLAN.with_found_signs:
     rule composition_figures:
         """Figures 1, 2 and 13 of a corpus without tags."""
         input:
-            recordings=lambda w: collect(
-                "<results>/{corpus}/recordings/{shard}.parquet",
-                corpus=w.corpus,
-                shard=PLAN.shards(w.corpus),
-            ),
+            recordings=rules.synthesis.input.recordings,
             intervals=rules.gather.output.intervals,
             excluded=rules.gather.output.excluded,
             description=lambda w: PLAN.description(w.corpus),
-            constants=PLAN.papers / "naert2017" / "constants.csv",
+            constants=NAERT / "constants.csv",
+            exhibits=NAERT / "exhibits.yaml",
         output:
-            multiext(
-                "<results>/naert2017/{corpus}/fig",
-                *[
-                    f"{n}.{s}"
-                    for n in ("01", "02", "13")
-                    for s in ("svg", "pdf", "csv")
-                ],
+            figures=files(
+                of_groups(NAERT_EXHIBITS, "composition"),
+                "<results>/naert2017/{corpus}",
             ),
             captions="<results>/naert2017/{corpus}/synthesis/captions.json",
         log:
@@ -263,6 +238,7 @@ if PLAN.with_found_signs:
         params:
             code=PLAN.digest("naert2017/synthesis_figures.py"),
             corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+            groups=("composition",),
             settings=SYNTHESIS,
         script:
             "../scripts/naert2017/synthesis_figures.py"
@@ -278,11 +254,11 @@ rule utterances:
         excluded=rules.gather.output.excluded,
         description=lambda w: PLAN.description(w.corpus),
         data=lambda w: PLAN.corpora_files(w.corpus),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        constants=NAERT / "constants.csv",
     output:
         folder=directory("<results>/naert2017/{corpus}/synthesis/utterances"),
-        parts="<results>/naert2017/{corpus}/synthesis/utterances.csv",
-        found="<results>/naert2017/{corpus}/synthesis/found_signs.csv",
+        utterances="<results>/naert2017/{corpus}/synthesis/utterances.csv",
+        found_signs="<results>/naert2017/{corpus}/synthesis/found_signs.csv",
     log:
         "<logs>/naert2017/{corpus}/utterances.log",
     params:
@@ -317,8 +293,8 @@ rule duration_statistics:
     params:
         code=PLAN.digest("naert2017/duration_statistics.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        seed=config["seed"],
-        settings={k: config[k] for k in ("transitions", "durations")},
+        seed=SETTINGS.seed,
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_statistics.py"
 
@@ -327,25 +303,21 @@ rule duration_models:
     """SIMPLE, BOUNDED, LINEAR and SURFACE against the truth (5.2)."""
     input:
         transitions=rules.naert_tables.output.transitions,
-        speeds=lambda w: collect(
-            "<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
-        constants=PLAN.papers / "naert2017" / "constants.csv",
+        speeds=of_shards(rules.transitions.output.transition_speeds),
+        constants=NAERT / "constants.csv",
     output:
-        speeds="<results>/naert2017/{corpus}/transition_speeds.csv",
-        models="<results>/naert2017/{corpus}/duration_models.csv",
-        coefficients="<results>/naert2017/{corpus}/duration_coefficients.csv",
-        predictions="<results>/naert2017/{corpus}/fig_durations.csv",
+        transition_speeds="<results>/naert2017/{corpus}/transition_speeds.csv",
+        duration_models="<results>/naert2017/{corpus}/duration_models.csv",
+        duration_coefficients="<results>/naert2017/{corpus}/duration_coefficients.csv",
+        duration_predictions="<results>/naert2017/{corpus}/fig_durations.csv",
         figure=multiext("<results>/naert2017/{corpus}/fig_durations", ".svg", ".pdf"),
     log:
         "<logs>/naert2017/{corpus}/duration_models.log",
     params:
         code=PLAN.digest("naert2017/duration_models.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        seed=config["seed"],
-        settings={k: config[k] for k in ("transitions", "durations")},
+        seed=SETTINGS.seed,
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_models.py"
 
@@ -354,7 +326,7 @@ rule duration_surface:
     """The surface of duration over both distances (Fig. 11)."""
     input:
         transitions=rules.naert_tables.output.transitions,
-        speeds=rules.duration_models.output.speeds,
+        speeds=rules.duration_models.output.transition_speeds,
     output:
         svg="<results>/naert2017/{corpus}/fig11.svg",
         pdf="<results>/naert2017/{corpus}/fig11.pdf",
@@ -364,7 +336,7 @@ rule duration_surface:
     params:
         code=PLAN.digest("naert2017/duration_surface.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_surface.py"
 
@@ -380,25 +352,18 @@ rule naert2017_durations:
 rule multiverse:
     """Claims of Naert et al. under every combination of open choices."""
     input:
-        recordings=lambda w: collect(
-            "<results>/{corpus}/recordings/{shard}.parquet",
-            corpus=w.corpus,
-            shard=PLAN.shards(w.corpus),
-        ),
+        recordings=of_shards(rules.ingest.output.recordings),
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         transitions=rules.naert_tables.output.transitions,
     output:
-        table="<results>/naert2017/{corpus}/multiverse.csv",
+        multiverse="<results>/naert2017/{corpus}/multiverse.csv",
     log:
         "<logs>/naert2017/{corpus}/multiverse.log",
     params:
         code=PLAN.digest("naert2017/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
-        seed=config["seed"],
-        settings={
-            k: config[k]
-            for k in ("kinematics", "refinement", "transitions", "multiverse")
-        },
+        seed=SETTINGS.seed,
+        settings=GridSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/open_choices.py"

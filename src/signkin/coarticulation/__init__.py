@@ -11,7 +11,7 @@ from signkin.coarticulation.duration import (
 )
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.retrieval import retrieve
-from signkin.coarticulation.segmentation import refine
+from signkin.coarticulation.segmentation import refine, refine_each
 from signkin.coarticulation.synthesis import blend, interpolate
 
 __all__ = [
@@ -27,5 +27,6 @@ __all__ = [
     "geodesic_distance",
     "interpolate",
     "refine",
+    "refine_each",
     "retrieve",
 ]

@@ -93,6 +93,15 @@ class DurationModel(ABC):
         """Return durations in seconds, (N,)."""
 
 
+def simple_weight(alpha: float, geodesic: bool) -> float:
+    """Return SIMPLE's weight of the Euclidean part for a corpus with or without geodesic distance.
+
+    Without (no orientations) there is nothing but the Euclidean part, as LINEAR too has but the
+    one distance then.
+    """
+    return alpha if geodesic else 1.0
+
+
 @dataclass
 class SimpleDuration(DurationModel):
     """SIMPLE_DURATION (eq. 3): distance over the mean speed of the two surrounding signs.

@@ -7,9 +7,11 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy import stats
 
 from signkin.annotation import Interval
+from signkin.errors import SignkinError
 from signkin.joints import HANDS
 
 EDGES = ("start", "end")
@@ -33,15 +35,60 @@ def refine(
     annotator had it, and two tags never end on one minimum, unless they stood at one instant
     to begin with (one boundary then, which moves as one). Among all moves that keep this, the
     one with the least total displacement is taken, where a tag that stays counts as displaced
-    by the whole window. Without competition this is the nearest minimum for each tag.
+    by the whole window. Without competition this is the nearest minimum for each tag, which is
+    what `refine_each` does throughout.
+
+    A tag without a time (NaN, masked) stays without one and never counts as moved. Raises
+    SignkinError for a minimum without a time, and for a window that is no length.
     """
-    tags = np.asarray(intervals_s, dtype=float).reshape(-1, 2)
-    minima = np.unique(np.asarray(minima_s, dtype=float))
-    times, event_of = np.unique(tags.ravel(), return_inverse=True)
+    tags, minima = _checked(intervals_s, minima_s, window_s)
+    refined, moved = tags.copy(), np.zeros(tags.shape, dtype=bool)
+    there = np.isfinite(tags)
+    times, event_of = np.unique(tags[there], return_inverse=True)
     chosen, event_moved = _assign(times, minima, window_s + tolerance_s)
-    refined = chosen[event_of].reshape(tags.shape)
-    moved = event_moved[event_of].reshape(tags.shape)
+    refined[there], moved[there] = chosen[event_of], event_moved[event_of]
     return refined, moved, nearest(tags, minima)
+
+
+def refine_each(
+    intervals_s: NDArray[np.float64],
+    minima_s: NDArray[np.float64],
+    window_s: float = 0.15,
+    tolerance_s: float = 1e-6,
+) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.float64]]:
+    """Move each tag to its nearest minimum within the window, whatever the other tags do.
+
+    The paper's rule taken as it stands (4.2): two tags may end on one minimum, and an end may
+    come after the next start. Arguments and results as `refine`.
+    """
+    tags, minima = _checked(intervals_s, minima_s, window_s)
+    closest = nearest(tags, minima)
+    moved = np.abs(closest - tags) <= window_s + tolerance_s  # NaN is no distance
+    return np.where(moved, closest, tags), moved, closest
+
+
+def _checked(
+    intervals_s: NDArray[np.float64], minima_s: NDArray[np.float64], window_s: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return tags (N, 2), NaN where masked, and the minima in order."""
+    tags, minima = _unmasked(intervals_s).reshape(-1, 2), _unmasked(minima_s).ravel()
+    lost = int((~np.isfinite(minima)).sum())
+    if lost:
+        raise SignkinError(
+            f"{lost} of {len(minima)} minima have no time",
+            place="refinement",
+            expected="times in seconds",
+            todo="Leave minima without a time out.",
+        )
+    if not (np.isfinite(window_s) and window_s >= 0):
+        raise SignkinError(
+            f"the window is {window_s:g} s", place="refinement", expected="0 or more"
+        )
+    return tags, np.unique(minima)
+
+
+def _unmasked(values: ArrayLike) -> NDArray[np.float64]:
+    return np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan), dtype=float)
 
 
 def _assign(
@@ -84,13 +131,17 @@ def _assign(
 
 
 def nearest(times: NDArray[np.float64], minima: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the minimum nearest to each time (the earlier of two equally near), NaN if none."""
+    """Return the minimum nearest to each time (the earlier of two equally near).
+
+    minima: (M,), rising. NaN where there is no minimum, and for a time that is NaN.
+    """
     if not len(minima):
         return np.full(np.shape(times), np.nan)
     after = np.clip(np.searchsorted(minima, times), 1, max(len(minima) - 1, 1))
     before = minima[after - 1]
     beyond = minima[np.minimum(after, len(minima) - 1)]
-    return np.where(np.abs(times - before) <= np.abs(beyond - times), before, beyond)
+    closest = np.where(np.abs(times - before) <= np.abs(beyond - times), before, beyond)
+    return np.where(np.isnan(times), np.nan, closest)
 
 
 def boundary_rows(
@@ -107,6 +158,7 @@ def boundary_rows(
     frames = []
     for hand in HANDS:
         refined, moved, closest = refine(manual, minima_s[hand], window_s, tolerance_s)
+        plain, _, _ = refine_each(manual, minima_s[hand], window_s, tolerance_s)
         distance = np.abs(closest - manual)
         reachable = distance <= window_s + tolerance_s
         status = np.where(moved, "moved", np.where(reachable, "taken", "far"))
@@ -127,6 +179,7 @@ def boundary_rows(
                     "hand": hand,
                     "minimum_s": closest.ravel(),
                     "refined_s": refined.ravel(),
+                    "plain_s": plain.ravel(),
                     "moved": moved.ravel(),
                     "distance_s": distance.ravel(),
                     "status": status.ravel(),
@@ -166,7 +219,8 @@ def refinement_quality(
     """Summarise how the tags of a corpus lie to the minima, per hand, against random tags.
 
     chance: (recording, hand) -> `chance_distances`. Columns as the table `refinement`
-    without the corpus.
+    without the corpus. low, high: 95 % interval of the value, tags taken as independent (the
+    exact binomial one of a share; order statistics for a median).
     """
     rows: list[dict[str, object]] = []
     for hand in HANDS:
@@ -175,38 +229,34 @@ def refinement_quality(
         pieces = [d for (_, h), d in chance.items() if h == hand]
         random_distance = np.concatenate(pieces, axis=1) if pieces else np.empty((1, 0))
         reach = window_s + tolerance_s
-        for measure, unit, statistic in (
-            ("tags with a minimum within the window", "share", partial(_share, reach=reach)),
-            ("median distance to the nearest minimum", "s", _median),
-        ):
+        for measure, unit, statistic, interval in (
+            ("tags with a minimum within the window", "share", partial(_share, reach=reach),
+             partial(_share_interval, reach=reach)),
+            ("median distance to the nearest minimum", "s", _median, _median_interval),
+        ):  # fmt: skip
             draws = np.array([statistic(row) for row in random_distance])
             rows.append(
                 {
                     "hand": hand,
                     "measure": measure,
                     "value": statistic(distance),
+                    **interval(distance),
                     "unit": unit,
                     **_interval(draws),
                     "n": len(distance),
                     "note": "" if np.isfinite(distance).any() else "no speed minimum",
                 }
             )
-        rows.append(
-            {
-                "hand": hand,
-                "measure": "tags moved",
-                "value": float(of_hand["moved"].mean()) if len(of_hand) else np.nan,
-                "unit": "share",
-                "n": len(of_hand),
-                "note": f"{int((of_hand['status'] == 'taken').sum())} stay because another tag "
-                "has their minimum",
-            }
-        )
+        # The plain rule moves a tag exactly where a minimum is in the window.
+        inside = np.array([_share(row, reach) for row in random_distance])
+        rows += _moved_rows(hand, of_hand, inside, tolerance_s)
     rows += _offset_rows(boundaries)
     columns = [
         "hand",
         "measure",
         "value",
+        "low",
+        "high",
         "unit",
         "chance",
         "chance_low",
@@ -215,6 +265,33 @@ def refinement_quality(
         "note",
     ]
     return pd.DataFrame(rows).reindex(columns=columns)
+
+
+def _moved_rows(
+    hand: str, tags: pd.DataFrame, chance: NDArray[np.float64], tolerance_s: float
+) -> list[dict[str, object]]:
+    """Return how many tags were moved, and how many the paper's plain rule puts elsewhere."""
+    moved = tags["moved"].to_numpy(dtype=bool)
+    refined, plain, closest = (
+        tags[column].to_numpy(dtype=float) for column in ("refined_s", "plain_s", "minimum_s")
+    )
+    other = np.abs(refined - plain) > tolerance_s
+    second = moved & (np.abs(refined - closest) > tolerance_s)
+    stay = int((tags["status"] == "taken").sum())
+    rows: list[dict[str, object]] = [
+        {"hand": hand, "measure": "tags moved", **_interval(chance),
+         "note": f"{stay} stay because another tag has their minimum; chance: random tags with a "
+         "minimum in the window"},
+        {"hand": hand, "measure": "tags that the paper's plain rule puts elsewhere",
+         "note": f"{int(other.sum())} of {len(tags)} tags; plain: each to its nearest minimum, "
+         "whatever the others do"},
+        {"hand": hand, "measure": "tags moved to a minimum that is not the nearest",
+         "note": f"{int(second.sum())} of {len(tags)} tags: another tag has their nearest"},
+    ]  # fmt: skip
+    for row, held in zip(rows, (moved, other, second), strict=True):
+        row |= {"value": float(held.mean()) if len(held) else np.nan, "unit": "share"}
+        row |= {**_binomial(int(held.sum()), len(held)), "n": len(held)}
+    return rows
 
 
 def _offset_rows(boundaries: pd.DataFrame) -> list[dict[str, object]]:
@@ -236,6 +313,26 @@ def _offset_rows(boundaries: pd.DataFrame) -> list[dict[str, object]]:
 
 def _share(distance: NDArray[np.float64], reach: float) -> float:
     return float(np.mean(distance <= reach)) if len(distance) else float("nan")
+
+
+def _share_interval(distance: NDArray[np.float64], reach: float) -> dict[str, float]:
+    return _binomial(int((distance <= reach).sum()), len(distance))
+
+
+def _binomial(k: int, n: int) -> dict[str, float]:
+    if not n:
+        return {"low": np.nan, "high": np.nan}
+    found = stats.binomtest(k, n).proportion_ci(0.95, method="exact")
+    return {"low": float(found.low), "high": float(found.high)}
+
+
+def _median_interval(values: NDArray[np.float64]) -> dict[str, float]:
+    """Return the interval of the median between two order statistics, 95 % or more."""
+    finite = np.sort(values[np.isfinite(values)])
+    below = int(stats.binom.ppf(0.025, len(finite), 0.5)) if len(finite) > 5 else 0
+    if below < 1:
+        return {"low": np.nan, "high": np.nan}
+    return {"low": float(finite[below - 1]), "high": float(finite[len(finite) - below])}
 
 
 def _median(values: NDArray[np.float64]) -> float:

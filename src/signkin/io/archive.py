@@ -1,12 +1,14 @@
 """Text files that lie in a tar archive: read without unpacking, in one pass over the archive.
 
 A recording's `part` in recordings.csv names the member. Without a part, the path itself is the
-text file.
+text file. What an archive's names say is never used as a path, and its links are not followed.
 """
 
 from __future__ import annotations
 
+import lzma
 import tarfile
+import zlib
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -15,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.text import LARGEST_BYTES, content_of, number, quoted
 
 
 def read_numbers(path: Path, part: str | None, columns: int) -> NDArray[np.float64]:
@@ -29,7 +32,12 @@ def read_numbers(path: Path, part: str | None, columns: int) -> NDArray[np.float
         # Split at once: a loop over lines takes ten times as long for thousands of files.
         rows = [line.split() for line in text.rstrip().splitlines()]
         values = np.array(rows, dtype=np.float64)
-        if values.ndim == 2 and values.shape[1] == columns and np.isfinite(values).all():
+        if (
+            "_" not in text
+            and values.ndim == 2
+            and values.shape[1] == columns
+            and np.isfinite(values).all()
+        ):
             return values
     except ValueError:
         pass
@@ -42,42 +50,35 @@ def _fault(text: str, columns: int, path: Path, place: str) -> SignkinError:
     if not lines:
         where = place.removesuffix(", ") or None
         return SignkinError("nothing in it", file=path, place=where, expected="a row a frame")
-    for number, line in enumerate(lines, start=1):
+    for at, line in enumerate(lines, start=1):
         cells = line.split()
         if len(cells) != columns:
             return SignkinError(
                 f"{len(cells)} columns",
                 file=path,
-                place=f"{place}line {number}",
+                place=f"{place}line {at}",
                 expected=f"{columns} columns in each line",
             )
         for column, cell in enumerate(cells, start=1):
-            if not _is_finite(cell):
+            if number(cell) is None:
                 return SignkinError(
-                    f"found {cell!r}",
+                    f"found {quoted(cell)}",
                     file=path,
-                    place=f"{place}line {number}, column {column}",
+                    place=f"{place}line {at}, column {column}",
                     expected="a finite number",
                 )
     raise AssertionError("a file without a fault was refused")
 
 
-def _is_finite(cell: str) -> bool:
-    try:
-        return bool(np.isfinite(float(cell)))
-    except ValueError:
-        return False
-
-
 def _text(path: Path, part: str | None) -> str:
     if part is None:
-        content = path.read_bytes()
+        content = content_of(path)
     else:
         state = path.stat()
         members = _members(path, state.st_mtime_ns, state.st_size)
         if part not in members:
             raise SignkinError(
-                f"no member {part!r} among {len(members)} in the archive",
+                f"no member {quoted(part)} among {len(members)} in the archive",
                 file=path,
                 expected=listed(sorted(members), 3),
                 todo="Correct the column `part` of recordings.csv.",
@@ -97,9 +98,24 @@ def _members(path: Path, mtime_ns: int, size: int) -> Mapping[str, bytes]:
     """Return every file of an archive by name; one archive is kept, however often asked for."""
     try:
         with tarfile.open(path) as archive:
-            files = (member for member in archive if member.isfile())
-            return {member.name: _content(archive, member) for member in files}
-    except (tarfile.TarError, EOFError, OSError) as error:
+            files = {}
+            room = LARGEST_BYTES
+            for member in archive:
+                if not member.isfile():
+                    continue
+                room -= member.size
+                if room < 0:  # told by the archive before anything is unpacked
+                    raise SignkinError(
+                        f"more than {LARGEST_BYTES / 1e6:.0f} MB unpacked",
+                        file=path,
+                        expected="less, or the files by themselves",
+                    )
+                files[member.name] = _content(archive, member)
+            return files
+    except (
+        tarfile.TarError, EOFError, OSError, zlib.error, lzma.LZMAError,
+        ValueError, ArithmeticError,
+    ) as error:  # fmt: skip
         raise SignkinError(
             f"not readable as a tar archive ({error})",
             file=path,

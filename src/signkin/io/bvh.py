@@ -6,13 +6,18 @@ whose root has an OFFSET of its own repeat it in the channel). Rotations in
 the file are degrees; rest orientations are the world's axes, so the product of
 the rotations down the chain is the joint's orientation in the world. An `End
 Site` is a joint named `<parent>_end`, with its parent's orientation.
+
+Keywords and channels are read in any case, braces and OFFSET on any line, one
+or two rotation channels too. Each frame is one line of as many numbers as there
+are channels; `nan` makes a gap of what it moves. More frames than the header
+says are read, with a note; fewer are an error, and so are two joints of a name
+where they are wanted: `part` (1, 2, ...) picks one ROOT of several.
 """
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,166 +25,83 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from signkin.errors import SignkinError
+from signkin.io.bvh_text import Hierarchy, parse, parse_bvh
 from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.text import quoted
 
-_CHANNELS = ("Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation")
-
-
-@dataclass(frozen=True, eq=False)
-class Hierarchy:
-    """A skeleton as a BVH file has it.
-
-    joints: J names, parents before children; parents: index of each parent, -1 for the root.
-    offsets: (J, 3) in the file's unit; channels: names for each joint, empty for end sites.
-    """
-
-    joints: tuple[str, ...]
-    parents: tuple[int, ...]
-    offsets: NDArray[np.float64]
-    channels: tuple[tuple[str, ...], ...]
-
-    @property
-    def n_channels(self) -> int:
-        """Number of values in a frame."""
-        return sum(len(channels) for channels in self.channels)
+__all__ = [
+    "Hierarchy",
+    "channel_values",
+    "forward_kinematics",
+    "parse_bvh",
+    "read_bvh",
+    "write_bvh",
+]
 
 
 @motion_reader("bvh", suffixes=(".bvh",))
 def read_bvh(
-    path: Path, *, joints: Mapping[str, str] | None = None, part: str | None = None
+    path: Path,
+    *,
+    joints: Mapping[str, str] | None = None,
+    part: str | None = None,
+    encoding: str | None = None,
 ) -> SourceMotion:
     """Read a BVH file: positions by forward kinematics and world orientations.
+
+    part: number of the ROOT, from 1, in a file with several. encoding: of the joints' names,
+    where it is not UTF-8.
 
     Returns positions (F, J, 3) in the file's unit (which BVH does not tell) and
     orientations (F, J, 4). Raises SignkinError for a broken or truncated file.
     """
-    hierarchy, values, rate_hz = parse_bvh(path)
-    positions, orientations = forward_kinematics(hierarchy, values)
-    names, indices = pick(hierarchy.joints, joints)
+    parsed = parse(path, encoding)
+    hierarchy = parsed.hierarchy
+    positions, orientations = forward_kinematics(hierarchy, parsed.values)
+    chosen = _of_root(hierarchy, part)
+    names, indices = pick(tuple(hierarchy.joints[i] for i in chosen), joints)
+    indices = [chosen[i] for i in indices]
     return SourceMotion(
-        rate_hz=rate_hz,
+        rate_hz=1.0 / parsed.frame_time,
+        rate_range=parsed.rate_range,
+        clock_place=f"line {parsed.line}",
         joints=names,
         positions=positions[:, indices],
         orientations=orientations[:, indices],
         parents=_parents_among(hierarchy.parents, indices),
+        notes=parsed.notes,
     )
 
 
-def parse_bvh(path: Path) -> tuple[Hierarchy, NDArray[np.float64], float]:
-    """Return the hierarchy, the channel values (F, C) and the rate in Hz of a BVH file."""
-    lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
-    hierarchy, line = _parse_hierarchy(lines)
-    frames, frame_time, first = _parse_motion_header(lines, line)
-    values = _parse_frames(lines, first, frames, hierarchy.n_channels)
-    return hierarchy, values, 1.0 / frame_time
-
-
-def _parse_hierarchy(lines: list[str]) -> tuple[Hierarchy, int]:
-    joints: list[str] = []
-    parents: list[int] = []
-    offsets: list[list[float]] = []
-    channels: list[tuple[str, ...]] = []
-    open_joints: list[int] = []
-    for number, text in enumerate(lines, start=1):
-        words = text.split()
-        if not words or words[0] in ("HIERARCHY", "{"):
-            continue
-        keyword = words[0]
-        if keyword == "MOTION":
-            if open_joints or not joints:
-                raise _broken(number, "MOTION before the hierarchy is closed", "a }")
-            return Hierarchy(tuple(joints), tuple(parents), np.array(offsets), tuple(channels)), (
-                number
-            )
-        if keyword in ("ROOT", "JOINT", "End"):
-            parent = open_joints[-1] if open_joints else -1
-            name = f"{joints[parent]}_end" if keyword == "End" else " ".join(words[1:])
-            open_joints.append(len(joints))
-            joints.append(name)
-            parents.append(parent)
-            offsets.append([0.0, 0.0, 0.0])
-            channels.append(())
-        elif keyword == "OFFSET" and open_joints:
-            offsets[open_joints[-1]] = _numbers(words[1:], 3, number)
-        elif keyword == "CHANNELS" and open_joints:
-            channels[open_joints[-1]] = _channel_names(words[1:], number)
-        elif keyword == "}" and open_joints:
-            open_joints.pop()
-        else:
-            raise _broken(number, f"found {keyword!r}", "JOINT, OFFSET, CHANNELS, End Site or }")
-    raise _broken(len(lines), "the file ends in its hierarchy", "MOTION and the frames")
-
-
-def _channel_names(words: list[str], number: int) -> tuple[str, ...]:
-    names = tuple(words[1:])
-    if not words or not words[0].isdigit() or int(words[0]) != len(names):
-        raise _broken(number, f"CHANNELS {' '.join(words)}", "a count and as many channels")
-    unknown = [name for name in names if name not in _CHANNELS]
-    if unknown or len(set(names)) != len(names):
-        raise _broken(number, f"CHANNELS {' '.join(names)}", f"each at most once: {_CHANNELS}")
-    rotations = sum(name.endswith("rotation") for name in names)
-    if rotations not in (0, 3):
-        raise _broken(number, f"{rotations} rotation channels", "three, or none")
-    return names
-
-
-def _parse_motion_header(lines: list[str], line: int) -> tuple[int, float, int]:
-    found: dict[str, float] = {}
-    for number in range(line, len(lines)):
-        key, colon, value = lines[number].partition(":")
-        if not lines[number].strip():
-            continue
-        if not colon:
-            break
-        found[key.strip().lower()] = _numbers(value.split(), 1, number + 1)[0]
-        if {"frames", "frame time"} <= set(found):
-            if not found["frame time"] > 0:
-                raise _broken(number + 1, f"the frame time is {value.strip()} s", "more than 0 s")
-            return int(found["frames"]), found["frame time"], number + 1
-    raise _broken(line, "no frame count and frame time after MOTION", "Frames: and Frame Time:")
-
-
-def _parse_frames(
-    lines: list[str], first: int, frames: int, n_channels: int
-) -> NDArray[np.float64]:
-    rows = [(number, text) for number, text in enumerate(lines[first:], first + 1) if text.strip()]
-    if len(rows) != frames:
-        raise _broken(
-            len(lines),
-            f"{len(rows)} frames, where the header says {frames}",
-            "as many; the file may be truncated",
+def _of_root(hierarchy: Hierarchy, part: str | None) -> list[int]:
+    """Return the joints of the chosen ROOT: all, where the file has one, or each name once."""
+    root = -1
+    roots = []
+    for parent in hierarchy.parents:
+        root += parent < 0
+        roots.append(root)
+    count = root + 1
+    if count == 1 or part is None:
+        return list(range(len(roots)))
+    if not (part.isascii() and part.isdigit() and 1 <= int(part) <= count):
+        raise SignkinError(
+            f"the part is {quoted(part)}",
+            place="part",
+            expected=f"1 to {count}: which ROOT of the file",
         )
-    try:
-        values = np.array(" ".join(text for _, text in rows).split(), dtype=float)
-    except ValueError:
-        values = np.empty(0)
-    if values.size != frames * n_channels:
-        for number, text in rows:
-            _numbers(text.split(), n_channels, number)
-    return values.reshape(frames, n_channels)
-
-
-def _numbers(words: list[str], count: int, number: int) -> list[float]:
-    values = []
-    for word in words:
-        try:
-            values.append(float(word))
-        except ValueError:
-            raise _broken(number, f"found {word!r}", "a number") from None
-    if len(values) != count:
-        raise _broken(number, f"{len(values)} numbers", f"{count}; the file may be truncated")
-    return values
-
-
-def _broken(number: int, found: str, expected: str) -> SignkinError:
-    return SignkinError(found, place=f"line {number}", expected=expected)
+    return [i for i, at in enumerate(roots) if at == int(part) - 1]
 
 
 def forward_kinematics(
     hierarchy: Hierarchy, values: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return world positions (F, J, 3) and orientations (F, J, 4) for channel values (F, C)."""
+    """Return world positions (F, J, 3) and orientations (F, J, 4) for channel values (F, C).
+
+    A value that is NaN makes NaN of what it moves: a position the joint and all below it, an angle
+    the joint's orientation and all below it.
+    """
     frames = len(values)
+    lost_turns: list[NDArray[np.bool_]] = []
     positions = np.empty((frames, len(hierarchy.joints), 3))
     orientations = np.empty((frames, len(hierarchy.joints), 4))
     world: list[Rotation] = []
@@ -194,18 +116,25 @@ def forward_kinematics(
                 shift[:, "XYZ".index(channel[0])] = block[:, i]
         turning = [i for i, channel in enumerate(channels) if channel.endswith("rotation")]
         order = "".join(channels[i][0] for i in turning)
+        angles = block[:, turning]
+        lost = np.asarray(np.isnan(angles).any(axis=1))
         local = (
-            Rotation.from_euler(order, block[:, turning], degrees=True)
+            Rotation.from_euler(order, np.where(lost[:, None], 0.0, angles), degrees=True)
             if turning
             else Rotation.identity(frames)
         )
+        if parent >= 0:
+            lost = np.asarray(lost | lost_turns[parent])
+        lost_turns.append(lost)
         if parent < 0:
             positions[:, joint] = shift
             world.append(local)
         else:
             positions[:, joint] = positions[:, parent] + world[parent].apply(shift)
+            positions[lost_turns[parent], joint] = np.nan
             world.append(world[parent] * local)
         orientations[:, joint] = world[joint].as_quat()
+        orientations[lost, joint] = np.nan
     return positions, orientations
 
 
@@ -281,12 +210,21 @@ def write_bvh(
             file=path,
             expected=f"(frames, {hierarchy.n_channels})",
         )
+    spoilt = [
+        n for n in hierarchy.joints if n != " ".join(n.split()) or not n or set(n) & set("{}")
+    ]
+    if spoilt:
+        raise SignkinError(
+            f"the joint {quoted(spoilt[0])}", file=path, expected="a name without braces and breaks"
+        )
     lines = ["HIERARCHY", *_hierarchy_lines(hierarchy), "MOTION", f"Frames: {len(values)}"]
     lines.append(f"Frame Time: {1.0 / rate_hz:.10g}")
     # Eight decimals of a degree: below 1e-9 rad, so that a written file reads back the same.
     form = " ".join(["%.8f"] * hierarchy.n_channels)
     lines.extend(form % tuple(row) for row in values)
-    Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
+    # Encoded before the file is opened, so that what cannot be written leaves none behind.
+    content = ("\n".join(lines) + "\n").encode("utf-8")
+    Path(path).write_bytes(content)
 
 
 def _hierarchy_lines(hierarchy: Hierarchy) -> list[str]:

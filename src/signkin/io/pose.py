@@ -6,15 +6,18 @@ joint map picks the components, and these decide the unit:
 - world landmarks alone: metres. The loader that writes such files multiplies
   x and y of every component, the world landmarks too, by the image's width and
   height; they are divided out here, and z is left alone.
-- image components alone: pixels, with z (in image widths) times the width.
+- image components alone: pixels, with z (in image widths) times the width; components of two
+  dimensions, as OpenPose has them, are flat (z is 0).
 - world landmarks with hand components: each hand is scaled from pixels to
   metres by the shoulders' width in both, and set on the world wrist.
 
-A masked or zero-confidence point is a gap (NaN).
+A masked or zero-confidence point is a gap (NaN). Where several people were seen, `part` (1, 2, ...)
+says which one is the recording; trackers may change their order between frames.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -25,6 +28,7 @@ from pose_format import Pose
 
 from signkin.errors import SignkinError, listed
 from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.text import content_of, quoted
 
 WORLD = "POSE_WORLD_LANDMARKS"
 IMAGE = "POSE_LANDMARKS"
@@ -35,7 +39,7 @@ HAND_COMPONENTS = {"LEFT_HAND_LANDMARKS": "LEFT", "RIGHT_HAND_LANDMARKS": "RIGHT
 def read_pose(
     path: Path, *, joints: Mapping[str, str] | None = None, part: str | None = None
 ) -> SourceMotion:
-    """Read the first person of a .pose file.
+    """Read one person of a .pose file; part: which one, from 1, where there are several.
 
     Returns positions (F, J, 3) in metres or pixels, by the components that the
     joint map picks; rate as the file's float (a header before 0.2 has whole
@@ -45,11 +49,14 @@ def read_pose(
     names = tuple(f"{c.name}.{point}" for c in pose.header.components for point in c.points)
     canonical, indices = pick(names, joints)
     components = {names[i].partition(".")[0] for i in indices}
-    data = _points(pose)
+    person = which_person(np.asarray(pose.body.confidence).max(axis=(0, 2), initial=0) > 0, part)
+    data = _points(pose, person)
     positions, unit = _in_one_unit(data, names, indices, components, pose.header.dimensions)
     whole_rate_only = float(pose.header.version) < 0.199
+    rate = _shortest_float(pose.body.fps)
     return SourceMotion(
-        rate_hz=None if whole_rate_only else _shortest_float(pose.body.fps),
+        rate_hz=None if whole_rate_only else rate,
+        rate_range=(rate - 0.5, rate + 0.5) if whole_rate_only and rate > 0 else None,
         joints=canonical,
         positions=positions,
         unit=unit,
@@ -57,9 +64,11 @@ def read_pose(
 
 
 def _load(path: Path) -> Any:
-    content = Path(path).read_bytes()
+    content = content_of(Path(path))
     try:
-        pose = Pose.read(content)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            pose = Pose.read(content)
     except Exception as error:  # the library lets struct, value and index errors through
         raise SignkinError(
             f"not readable as a .pose file ({type(error).__name__}: {error})",
@@ -79,12 +88,41 @@ def _shortest_float(rate: float) -> float:
     return float(str(np.float32(rate)))
 
 
-def _points(pose: Any) -> NDArray[np.float64]:
-    """Return (F, points, 3) with NaN where the tracker saw nothing."""
-    person = pose.body.data[:, 0, :, :3]
-    points = np.ma.getdata(person).astype(float)
-    seen = np.asarray(pose.body.confidence[:, 0]) > 0
-    points[~seen | np.ma.getmaskarray(person).any(axis=2)] = np.nan
+def which_person(seen: NDArray[np.bool_], part: str | None) -> int:
+    """Return the index of the person to read: the one that `part` names, or the only one seen.
+
+    seen: for each person, whether any point of them was seen.
+    """
+    if part is not None and not (part.isascii() and part.isdigit()) and len(seen) == 1:
+        return 0  # the part names something else than a person
+    if part is not None:
+        if not (part.isascii() and part.isdigit() and 1 <= int(part) <= len(seen)):
+            raise SignkinError(
+                f"the part is {quoted(part)}",
+                place="part",
+                expected=f"1 to {len(seen)}: which person of the file",
+            )
+        return int(part) - 1
+    there = np.flatnonzero(seen)
+    if len(there) > 1:
+        raise SignkinError(
+            f"{len(there)} people in the file",
+            place="people",
+            expected="the one to read, 1 to " + str(len(seen)) + ", as `part`",
+            todo="Trackers may change the order of people between frames: look at it.",
+        )
+    return int(there[0]) if len(there) else 0
+
+
+def _points(pose: Any, person: int) -> NDArray[np.float64]:
+    """Return (F, points, 3) with NaN where the tracker saw nothing; z is 0 in two dimensions."""
+    data = pose.body.data[:, person, :, :3]
+    with np.errstate(invalid="ignore"):  # a signalling NaN is a gap like any other
+        found = np.ma.getdata(data).astype(float)
+    points = np.zeros((*found.shape[:2], 3))
+    points[..., : found.shape[2]] = found
+    seen = np.asarray(pose.body.confidence[:, person]) > 0
+    points[~seen | np.ma.getmaskarray(data).any(axis=2)] = np.nan
     return points
 
 
@@ -96,8 +134,13 @@ def _in_one_unit(
     size: Any,
 ) -> tuple[NDArray[np.float64], str]:
     world = _component(names, WORLD)
-    metres = data / np.array([size.width, size.height, 1.0])
-    pixels = data * np.array([1.0, 1.0, size.width])
+    if not (size.width > 0 and size.height > 0):
+        raise SignkinError(
+            f"an image of {size.width} x {size.height} pixels", place="header", expected="a size"
+        )
+    with np.errstate(over="ignore", under="ignore"):
+        metres = data / np.array([size.width, size.height, 1.0])
+        pixels = data * np.array([1.0, 1.0, size.width])
     if components == {WORLD}:
         return metres[:, indices], "m"
     if WORLD not in components:
@@ -143,4 +186,11 @@ def _metres_per_pixel(
         span = points[:, at["LEFT_SHOULDER"], :2] - points[:, at["RIGHT_SHOULDER"], :2]
         return np.asarray(np.linalg.norm(span, axis=1))
 
-    return float(np.nanmedian(width(metres, WORLD) / width(pixels, IMAGE)))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        ratio = width(metres, WORLD) / width(pixels, IMAGE)
+    ratio = ratio[np.isfinite(ratio)]
+    if not ratio.size:
+        raise SignkinError(
+            "no frame with both shoulders", place="joints", expected="shoulders, to scale hands by"
+        )
+    return float(np.median(ratio))

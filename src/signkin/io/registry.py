@@ -8,6 +8,8 @@ A format is one file in this folder: it registers a function with
 
 from __future__ import annotations
 
+import inspect
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,15 +17,19 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from signkin.annotation import Annotation, TierWish
 from signkin.annotation_rules import GlossRules, excerpt
+from signkin.clock import FASTEST_HZ, SLOWEST_HZ, no_rate_of_motion
 from signkin.errors import SignkinError, listed
+from signkin.io.axes import axis_basis, turned
 from signkin.io.collecting import annotation_options, check_annotation_options
+from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
-METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "ft": 0.3048}
+# Beyond this, in any unit, a coordinate is a broken number and no place.
+FURTHEST = 1e9
 # A printed frame time such as 0.0333333 s is 30.00003 Hz: a declared rate may be this far off.
 RATE_TOLERANCE = 1e-3
 
@@ -33,6 +39,9 @@ class SourceMotion:
     """Motion as a file has it: own axes, own unit (None where the file does not say).
 
     positions: (F, J, 3); orientations: (F, J, 4) scalar-last, or None.
+    rate_range: rates that the file's printed digits leave possible, where they leave a choice.
+    start_s: time of the first frame on the file's own clock; clock_place: where it stands.
+    notes: what was decided in reading, a sentence each.
     """
 
     rate_hz: float | None
@@ -41,22 +50,33 @@ class SourceMotion:
     orientations: NDArray[np.float64] | None = None
     parents: tuple[int, ...] | None = None
     unit: str | None = None
+    rate_range: tuple[float, float] | None = None
+    start_s: float = 0.0
+    clock_place: str | None = None
+    notes: tuple[str, ...] = ()
 
 
 MotionReader = Callable[..., SourceMotion]
 AnnotationReader = Callable[..., Annotation]
 
 _MOTION: dict[str, tuple[MotionReader, tuple[str, ...]]] = {}
+_FOLDERS: set[str] = set()  # formats whose recording is a folder of files
 _ANNOTATION: dict[str, tuple[AnnotationReader, tuple[str, ...]]] = {}
 
 
 def motion_reader(
-    name: str, suffixes: tuple[str, ...] = ()
+    name: str, suffixes: tuple[str, ...] = (), folder: bool = False
 ) -> Callable[[MotionReader], MotionReader]:
-    """Register a reader of motion: f(path, *, joints, part, **options) -> SourceMotion."""
+    """Register a reader of motion: f(path, *, joints, part, **options) -> SourceMotion.
+
+    Its keyword-only parameters besides joints and part are the format's options.
+    folder: whether a recording is a folder.
+    """
 
     def register(reader: MotionReader) -> MotionReader:
         _MOTION[name] = (reader, suffixes)
+        if folder:
+            _FOLDERS.add(name)
         return reader
 
     return register
@@ -94,49 +114,148 @@ def read_recording(
     *,
     name: str | None = None,
     format: str | None = None,
-    unit: str | None = None,
-    rate_hz: float | None = None,
+    unit: str | float | list[str | float] | None = None,
+    rate_hz: float | Mapping[str, Any] | None = None,
     up: str = "z",
     right: str = "x",
     joints: Mapping[str, Any] | None = None,
     part: str | None = None,
+    clock: str | None = None,
     **options: Any,
 ) -> Recording:
     """Read one recording and make it canonical.
 
     path: the file; its suffix tells the format unless `format` does.
-    unit: m, cm, mm or px, where the file does not say.
-    rate_hz: where the file does not say; where it does, the two must agree.
+    unit: m, cm, mm, inch, ft or px, or a number of metres, where the file does not say; a list
+    of three for a unit an axis of the file.
+    rate_hz: where the file does not say; where it does, the two must agree as far as the file's
+    printed digits tell. `{use: 60, instead_of_file: true}` overrules the file, and is noted.
     up, right: the file's axis (`y`, `-x`, ...) that points up, and to the signer's right.
     joints: canonical name -> name in the file (for tables: its columns); None keeps all.
-    part: which part of the file, where it holds several recordings.
+    part: which part of the file, where it holds several recordings or people.
+    clock: `first_frame` where a file's times do not start at 0 and are to count from there.
     options: what the format wants to know besides (see its module).
 
     Returns positions in metres (or pixels), orientations where the file has them.
     Raises SignkinError with the file and the place in it.
     """
     path = Path(path)
-    reader = _find(_MOTION, path, format, "motion")
-    source = _guarded(reader, path, joints=joints, part=part, **options)
+    part = None if part is None else str(part)
+    wanted = _find(_MOTION, path, format, "motion")
     try:
+        _check_joint_map(joints)
+        _check_options(wanted, options, ("joints", "part"), ("clock",))
+    except SignkinError as error:
+        raise brief(error.at(file=path)) from error
+    folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
+    source = _guarded(wanted, path, folders, joints=joints, part=part, **options)
+    try:
+        _check_positions(source)
         scale, final_unit = _scale(source.unit, unit)
         basis = axis_basis(up, right)
-        positions = source.positions @ basis.T * scale
+        rate, rate_notes = _agreed_rate(source, rate_hz)
+        clock_notes = _clock(source, rate, clock)
+        if isinstance(scale, float):
+            positions = source.positions @ basis.T * scale
+        else:
+            positions = source.positions * scale @ basis.T
         orientations = None
         if source.orientations is not None:
-            orientations = _turned(source.orientations, basis)
+            orientations = turned(source.orientations, basis)
         return Recording(
             name=name or (part if part is not None else path.stem),
-            rate_hz=_agreed_rate(source.rate_hz, rate_hz),
+            rate_hz=rate,
             joints=source.joints,
             positions=positions,
             orientations=orientations,
             orientation_source="none" if orientations is None else "recorded",
             unit=final_unit,
             parents=source.parents,
+            notes=(*source.notes, *rate_notes, *clock_notes),
         )
     except SignkinError as error:
-        raise error.at(file=path) from error
+        raise brief(error.at(file=path)) from error
+
+
+def _check_joint_map(joints: object) -> None:
+    """Refuse a joint map that is none, and one that gives two joints one place in the file."""
+    if joints is None:
+        return
+    if not isinstance(joints, Mapping):
+        raise SignkinError(
+            f"the joint map is {quoted(joints)}",
+            place="joints",
+            expected="canonical name: name in the file",
+        )
+    taken: dict[Any, str] = {}
+    for joint, place in joints.items():
+        for column in place if isinstance(place, list | tuple) else (place,):
+            if not isinstance(column, str | int):
+                raise SignkinError(
+                    f"{joint} has {quoted(column)}", place="joints", expected="names of the file"
+                )
+            if column in taken:
+                both = f"{taken[column]} and {joint}" if taken[column] != joint else str(joint)
+                raise SignkinError(
+                    f"{quoted(column)} stands twice, for {both}",
+                    place="joints",
+                    expected="each joint its own place in the file",
+                )
+            taken[column] = str(joint)
+
+
+def _check_options(
+    reader: Any, given: Mapping[str, Any], own: tuple[str, ...], common: tuple[str, ...]
+) -> None:
+    """Refuse an option that the reader does not have."""
+    parameters = inspect.signature(reader).parameters.values()
+    options = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in own]
+    unknown = [name for name in given if name not in options]
+    if unknown:
+        known = {id(reader): key for key, (reader, _) in (*_MOTION.items(), *_ANNOTATION.items())}
+        raise SignkinError(
+            f"no option {listed(unknown)} of the format {known.get(id(reader), 'chosen')}",
+            place="options",
+            expected=listed([*options, *common], 40),
+        )
+
+
+def _check_positions(source: SourceMotion) -> None:
+    """Refuse what is no coordinate, before the axes are turned: infinity times 0 is a gap."""
+    if len(source.positions) < 2:
+        raise SignkinError(
+            f"{len(source.positions)} frames", place="frames", expected="2 frames or more"
+        )
+    with np.errstate(invalid="ignore"):
+        bad = np.abs(source.positions) > FURTHEST
+    if bad.any():
+        frame, joint, axis = (int(i) for i in np.argwhere(bad)[0])
+        value = source.positions[frame, joint, axis]
+        infinite = "the positions hold an infinite value"
+        raise SignkinError(
+            f"a coordinate of {value:g}" if np.isfinite(value) else infinite,
+            place=f"joint {source.joints[joint]}, frame {frame}",
+            expected="a finite value, or NaN for a gap",
+        )
+
+
+def _clock(source: SourceMotion, rate_hz: float, clock: str | None) -> tuple[str, ...]:
+    """Check where the file's own clock starts; what was decided about it is returned."""
+    if clock not in (None, "first_frame"):
+        raise SignkinError(
+            f"the clock is {quoted(clock)}", place="options, clock", expected="first_frame"
+        )
+    # Many programs give the first frame the time of one frame.
+    if abs(source.start_s) <= 1.5 / rate_hz:
+        return ()
+    if clock is None:
+        raise SignkinError(
+            f"the clock starts at {source.start_s:.10g} s",
+            place=source.clock_place,
+            expected="0 s at the first frame, from which tags are counted",
+            todo="Declare options: {clock: first_frame} to count from the first frame.",
+        )
+    return (f"the file's clock starts at {source.start_s:.10g} s; times count from there",)
 
 
 def read_annotation(
@@ -170,7 +289,8 @@ def read_annotation(
     reader = _find(_ANNOTATION, path, format, "annotation")
     check_annotation_options(reader, options, path)
     asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
-    annotation: Annotation = _guarded(reader, path, tiers=asked, name=name, part=part, **options)
+    spec = {"tiers": asked, "name": name, "part": part, **options}
+    annotation: Annotation = _guarded(reader, path, False, **spec)
     try:
         annotation = excerpt(annotation, from_s, to_s, clock_offset_s, clip)
         return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
@@ -179,73 +299,30 @@ def read_annotation(
 
 
 def in_file_axes(
-    recording: Recording, *, unit: str, up: str = "z", right: str = "x"
+    recording: Recording, *, unit: Any, up: str = "z", right: str = "x"
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     """Return positions and orientations in a file's own axes and unit: `read_recording` undone."""
     scale, _ = _scale(None, unit)
     basis = axis_basis(up, right)
-    positions = recording.positions / scale @ basis
+    if isinstance(scale, float):
+        positions = recording.positions / scale @ basis
+    else:
+        positions = recording.positions @ basis / scale
     if recording.orientations is None:
         return positions, None
-    return positions, _turned(recording.orientations, basis.T)
+    return positions, turned(recording.orientations, basis.T)
 
 
-def axis_basis(up: str, right: str) -> NDArray[np.float64]:
-    """Return the rotation (3, 3) that takes file axes to right, forward, up.
-
-    Its rows are the signer's right, forward (up x right) and up, as the file
-    names them; both axes are written `x`, `-y` and so on.
-    """
-    z, x = _axis(up, "up"), _axis(right, "right")
-    if abs(z @ x) > 0:
-        raise SignkinError(
-            f"up is {up} and right is {right}", place="axes", expected="two different axes"
-        )
-    return np.array([x, np.cross(z, x), z])
-
-
-def _axis(text: str, key: str) -> NDArray[np.float64]:
-    name = text.removeprefix("-")
-    if name not in ("x", "y", "z"):
-        raise SignkinError(
-            f"{key} is {text!r}", place="axes", expected="x, y or z, with or without a minus sign"
-        )
-    axis = np.zeros(3)
-    axis["xyz".index(name)] = -1.0 if text.startswith("-") else 1.0
-    return axis
-
-
-def _turned(orientations: NDArray[np.float64], basis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Express rotations of world space in turned axes: R q R^-1."""
-    turn = Rotation.from_matrix(basis)
-    flat = orientations.reshape(-1, 4)
-    out = np.full_like(flat, np.nan)
-    there = ~np.isnan(flat).any(axis=1)
-    if there.any():
-        out[there] = (turn * Rotation.from_quat(flat[there]) * turn.inv()).as_quat()
-    return continuous(out.reshape(orientations.shape))
-
-
-def continuous(quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Choose between q and -q (the same rotation) so that each follows its predecessor smoothly.
-
-    quaternions: (F, J, 4); the first of each joint gets w >= 0. NaN frames are passed over.
-    """
-    out: NDArray[np.float64] = quaternions.copy()
-    for joint in range(out.shape[1]):
-        track = out[:, joint]
-        there = np.flatnonzero(~np.isnan(track).any(axis=1))
-        if not there.size:
-            continue
-        valid = track[there]
-        flips = np.ones(len(there))
-        flips[0] = -1.0 if valid[0, 3] < 0 else 1.0
-        flips[1:] = np.where((valid[1:] * valid[:-1]).sum(axis=1) < 0, -1.0, 1.0)
-        out[there, joint] = valid * np.cumprod(flips)[:, None]
-    return out
-
-
-def _scale(of_file: str | None, declared: str | None) -> tuple[float, str]:
+def _scale(of_file: str | None, declared: Any) -> tuple[float | NDArray[np.float64], str]:
+    """Return the factor to metres (or 1 for pixels), one or one an axis, and the unit after it."""
+    if isinstance(declared, list | tuple):
+        if of_file is not None or len(declared) != 3 or "px" in declared:
+            raise SignkinError(
+                f"a unit an axis, {quoted(declared)}",
+                place="unit",
+                expected="three of m, cm, mm, inch, ft or metres a unit, where the file tells none",
+            )
+        return np.array([_scale(None, unit)[0] for unit in declared]), "m"
     if of_file is not None and declared is not None and of_file != declared:
         raise SignkinError(
             f"the declared unit is {declared}, the chosen joints are in {of_file}",
@@ -255,35 +332,64 @@ def _scale(of_file: str | None, declared: str | None) -> tuple[float, str]:
     unit = of_file or declared
     if unit == "px":
         return 1.0, "px"
-    if unit not in METRES_PER:
+    if isinstance(unit, int | float) and not isinstance(unit, bool) and 0 < unit <= 1e6:
+        return float(unit), "m"
+    if not isinstance(unit, str) or unit not in METRES_PER:
         raise SignkinError(
-            "the unit is missing" if unit is None else f"the unit is {unit!r}",
+            "the unit is missing" if unit is None else f"the unit is {quoted(unit)}",
             place="unit",
-            expected="m, cm, mm or px",
+            expected="m, cm, mm or px, inch, ft, or the number of metres a unit",
             todo="The file does not tell its unit; declare it.",
         )
     return METRES_PER[unit], "m"
 
 
-def _agreed_rate(of_file: float | None, declared: float | None) -> float:
-    if of_file is None and declared is None:
+def _agreed_rate(source: SourceMotion, declared: Any) -> tuple[float, tuple[str, ...]]:
+    """Return the rate of file and declaration, and what there is to be said about it."""
+    of_file, possible = source.rate_hz, source.rate_range
+    overrule = False
+    if isinstance(declared, Mapping):
+        if set(declared) - {"use", "instead_of_file"} or "use" not in declared:
+            raise SignkinError(
+                f"the keys {listed(declared)}", place="rate_hz", expected="use, instead_of_file"
+            )
+        overrule, declared = declared.get("instead_of_file") is True, declared["use"]
+    if declared is not None and (
+        isinstance(declared, bool)
+        or not isinstance(declared, int | float | np.integer | np.floating)
+        or not np.isfinite(declared)
+        or declared <= 0
+    ):
         raise SignkinError(
-            "the rate is missing",
-            place="rate_hz",
-            expected="the capture rate in Hz, e.g. 240",
-            todo="The file does not tell its rate; declare it.",
+            f"the rate is {quoted(declared)}", place="rate_hz", expected="a number above 0, in Hz"
         )
-    if of_file is None or declared is None:
-        rate = of_file if declared is None else declared
-        assert rate is not None
-        return float(rate)
-    if abs(of_file - declared) > RATE_TOLERANCE * abs(declared):
-        raise SignkinError(
-            f"the file says {of_file:g} Hz, the declaration {declared:g} Hz",
-            place="rate_hz",
-            expected="two rates that agree to 0.1 %",
-        )
-    return float(declared)
+    if declared is None:
+        if of_file is None:
+            raise SignkinError(
+                "the rate is missing",
+                place="rate_hz",
+                expected="the capture rate in Hz, e.g. 240",
+                todo="The file does not tell its rate; declare it.",
+            )
+        if not SLOWEST_HZ <= of_file <= FASTEST_HZ:
+            raise no_rate_of_motion(of_file, source.clock_place or "rate")
+        return float(of_file), ()
+    rate = float(declared)
+    if of_file is None and possible is None:
+        return rate, ()
+    told = of_file if of_file is not None else round(sum(possible or ()) / 2, 6)
+    low, high = possible or (told, told)
+    slack = RATE_TOLERANCE * rate
+    if low - rate <= slack and rate - high <= slack:
+        return rate, ()
+    if overrule:
+        return rate, (f"the file says {told:.6g} Hz; overruled by the declared {rate:.6g} Hz",)
+    raise SignkinError(
+        f"the file says {told:g} Hz, the declaration {rate:g} Hz",
+        place="rate_hz",
+        expected="two rates that agree to 0.1 %, or to the file's printed digits",
+        todo=f"Where the file is wrong, rate_hz: {{use: {rate:g}, instead_of_file: true}}.",
+    )
 
 
 def _find(
@@ -293,33 +399,44 @@ def _find(
     what: str,
 ) -> Any:
     if format is not None:
-        if format not in readers:
+        if not isinstance(format, str) or format not in readers:
             raise SignkinError(
-                f"no reader for the {what} format {format!r}",
+                f"no reader for the {what} format {quoted(format)}",
                 file=path,
                 expected=listed(sorted(readers)),
             )
         return readers[format][0]
+    if path.is_dir() and what == "motion":
+        return readers["openpose_json"][0]
     for reader, suffixes in readers.values():
         if path.suffix.lower() in suffixes:
             return reader
     known = sorted(suffix for _, suffixes in readers.values() for suffix in suffixes)
     raise SignkinError(
-        f"the suffix {path.suffix!r} tells no {what} format",
+        f"the suffix {quoted(path.suffix)} tells no {what} format",
         file=path,
         expected=f"{listed(known)}, or the format by name",
     )
 
 
-def _guarded(reader: Any, path: Path, **arguments: Any) -> Any:
-    if not path.is_file():
+def _guarded(reader: Any, path: Path, folders: bool, **arguments: Any) -> Any:
+    if path.is_dir() and not folders:
+        raise SignkinError(
+            "this is a folder",
+            file=path,
+            expected="a file",
+            todo="A folder of OpenPose's JSON files has the format openpose_json.",
+        )
+    if not path.is_file() and not path.is_dir():
         raise SignkinError(
             "there is no such file", file=path, todo="Check data_dir and the file's name."
         )
     try:
         return reader(path, **arguments)
     except SignkinError as error:
-        raise error.at(file=path) from error
+        raise brief(error.at(file=path)) from error
+    except OSError as error:
+        raise SignkinError(f"not readable ({error.strerror})", file=path) from error
 
 
 def pick(
@@ -327,6 +444,9 @@ def pick(
 ) -> tuple[tuple[str, ...], list[int]]:
     """Return canonical names and the file's indices of the wanted joints (None: all)."""
     if wanted is None:
+        twice = sorted(name for name, count in Counter(available).items() if count > 1)
+        if twice:
+            raise _stands_twice(twice)
         return available, list(range(len(available)))
     unknown = [str(name) for name in wanted.values() if name not in available]
     if unknown:
@@ -335,4 +455,23 @@ def pick(
             place="joints",
             expected=listed(available, 200),
         )
+    twice = [name for name in wanted.values() if available.count(name) > 1]
+    if twice:
+        raise _stands_twice(twice)
+    shared = [name for name, count in Counter(wanted.values()).items() if count > 1]
+    if shared:
+        joints = [joint for joint, name in wanted.items() if name == shared[0]]
+        raise SignkinError(
+            f"{quoted(shared[0])} stands twice, for {' and '.join(joints)}",
+            place="joints",
+            expected="each joint its own place in the file",
+        )
     return tuple(wanted), [available.index(name) for name in wanted.values()]
+
+
+def _stands_twice(names: list[str]) -> SignkinError:
+    return SignkinError(
+        f"joint {listed(names, 5)} stands twice in the file",
+        place="joints",
+        expected="each joint once; two people of the same names are told apart by `part`",
+    )

@@ -37,13 +37,16 @@ def write_recordings(path: Path, recordings: Sequence[Recording]) -> None:
                 file=path,
                 expected="the same in all recordings of a corpus",
             )
-    about = {
+    about: dict[str, Any] = {
         "unit": first.unit,
         "joints": first.joints,
         "parents": first.parents,
         "orientation_source": first.orientation_source,
         "rates_hz": {recording.name: recording.rate_hz for recording in recordings},
     }
+    notes = {recording.name: recording.notes for recording in recordings if recording.notes}
+    if notes:
+        about["notes"] = notes
     tables = [_table(recording) for recording in recordings]
     schema = tables[0].schema.with_metadata({_KEY: json.dumps(about).encode()})
     with pq.ParquetWriter(path, schema, compression="zstd") as writer:
@@ -95,6 +98,7 @@ def read_recordings(path: Path, names: Iterable[str] | None = None) -> Iterator[
             orientation_source=about["orientation_source"],
             unit=about["unit"],
             parents=None if parents is None else tuple(parents),
+            notes=tuple(about.get("notes", {}).get(name, ())),
         )
 
 

@@ -6,25 +6,55 @@ Two columns make a flat recording (the third coordinate is 0).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from signkin.clock import SECONDS_PER, clock_of
 from signkin.errors import SignkinError, listed
+from signkin.io.points import Points, source_motion
 from signkin.io.registry import SourceMotion, motion_reader
+from signkin.io.table import (
+    FIRST_LINE,
+    Layout,
+    column_numbers,
+    known_column,
+    numbers_of,
+    printed_half_digit,
+    read_text_table,
+    rows_of_part,
+)
+from signkin.io.text import number, quoted
 from signkin.recording import Recording
+
+__all__ = [
+    "column_map",
+    "column_numbers",
+    "digits_for",
+    "known_column",
+    "read_text_table",
+    "read_wide_csv",
+    "rows_of_part",
+    "write_positions",
+    "write_wide_csv",
+]
 
 # Noise is written with digits this much finer than its standard deviation, so that the file's last
 # digit adds nothing to it.
 NOISE_PER_DIGIT = 1000
-# A clock that is off by more than this share of a frame is not a constant rate.
-CLOCK_TOLERANCE = 0.05
+# Columns that tell, by name and without being declared, whether rows follow one another.
+_FRAMES = ("frame", "frames", "frame_number", "frame#", "frame_no", "frame_id", "frame_index")
+_OWNERS = ("person", "person_id", "subject", "participant", "signer", "individual", "track_id",
+           "video", "take", "recording", "trial", "session", "clip")  # fmt: skip
+_TIMES = ("time", "times", "t", "time_s", "time_ms", "timestamp", "timestamps", "seconds")
+_TELLING = frozenset({*_FRAMES, *_OWNERS, *_TIMES})
 
 
-@motion_reader("csv", suffixes=(".csv",))
+@motion_reader("csv", suffixes=(".csv", ".tsv"))
 def read_wide_csv(
     path: Path,
     *,
@@ -33,34 +63,157 @@ def read_wide_csv(
     recording_column: str | None = None,
     frame_column: str | None = None,
     time_column: str | None = None,
+    time_unit: str | None = None,
+    resample_hz: float | None = None,
+    separator: str | None = None,
+    decimal: str | None = None,
+    encoding: str | None = None,
+    skip_rows: int = 0,
+    header_rows: int = 1,
+    missing: Any = None,
+    confidence: Mapping[str, str] | None = None,
+    confidence_threshold: float = 0.0,
+    image_size: Sequence[float] | None = None,
+    velocities: str | None = None,
 ) -> SourceMotion:
     """Read one recording of a table.
 
     recording_column: column whose value is `part`, where a file holds several recordings.
     frame_column: frame numbers; they must follow one another without a hole.
-    time_column: seconds; a constant rate is required and read off.
+    time_column: a constant rate is required and read off. time_unit: s (default), ms, us or ns.
+    resample_hz: rate to which a table with uneven times is resampled, which is noted.
+    separator, decimal, encoding, skip_rows, header_rows: see `table.Layout`.
+    missing: a number (a point whose coordinates all are this is missing), a text (a cell that is
+    this is missing), or a list of them.
+    confidence: joint -> column; below confidence_threshold, or at 0, the point is missing.
+    image_size: [width, height] in pixels, for coordinates from 0 to 1.
+    velocities: `integrate`, where the columns are velocities in unit/s; positions start at 0.
     """
     if not joints:
         raise SignkinError(
             "no joint map", place="joints", expected="joint: [columns] for at least one joint"
         )
-    table = read_text_table(path)
+    for joint, columns in joints.items():
+        if isinstance(columns, str | int) or len(columns) not in (2, 3):
+            raise SignkinError(
+                f"{joint} has the columns {columns!r}", place="joints", expected="2 or 3 columns"
+            )
+    if confidence is not None and not isinstance(confidence, Mapping):
+        raise SignkinError(
+            f"confidence is {quoted(confidence)}",
+            place="options, confidence",
+            expected="joint: column",
+        )
+    of_joint = {joint: [str(c) for c in columns] for joint, columns in joints.items()}
+    trust = {joint: str(c) for joint, c in (confidence or {}).items() if joint in of_joint}
+    layout = Layout(separator, decimal, skip_rows, header_rows, encoding, missing_texts(missing))
+    others = [c for c in (recording_column, frame_column, time_column) if c is not None]
+    wanted = [*others, *trust.values(), *(c for columns in of_joint.values() for c in columns)]
+    table = read_text_table(path, layout, wanted, also=_TELLING)
     rows = rows_of_part(table, recording_column, part)
+    _check_telling(rows, others)
     if frame_column is not None:
         frames = column_numbers(rows, frame_column)
         order = np.argsort(frames, kind="stable")
         rows = rows.iloc[order]
         _check_frames(frames[order], rows.index.to_numpy())
-    positions = np.zeros((len(rows), len(joints), 3))
-    for j, (joint, columns) in enumerate(joints.items()):
-        if isinstance(columns, str) or len(columns) not in (2, 3):
+    places = [(j, axis) for j, c in enumerate(of_joint.values()) for axis in range(len(c))]
+    positions = np.zeros((len(rows), len(of_joint), 3))
+    numbers = numbers_of(rows, [c for columns in of_joint.values() for c in columns])
+    for column, (j, axis) in enumerate(places):
+        positions[:, j, axis] = numbers[:, column]
+    times = None if time_column is None else column_numbers(rows, time_column)
+    possible = None if time_column is not None else _undeclared_rate(rows)
+    return source_motion(
+        Points(
+            rate_range=possible,
+            joints=tuple(of_joint),
+            positions=positions,
+            flat=tuple(len(columns) == 2 for columns in of_joint.values()),
+            confidence={joint: column_numbers(rows, c) for joint, c in trust.items()},
+            times=times,
+            half_digit=0.0 if time_column is None else printed_half_digit(rows, time_column),
+            time_place=f"column {time_column}",
+        ),
+        time_unit=time_unit,
+        resample_hz=resample_hz,
+        missing=missing_numbers(missing),
+        confidence_threshold=confidence_threshold,
+        image_size=image_size,
+        velocities=velocities,
+    )
+
+
+def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
+    """Refuse a table whose undeclared columns say that its rows are not one recording's frames.
+
+    A person or take that changes, and frame numbers that do not rise evenly.
+    """
+    telling = [column for column in rows.columns if column.lower() in (*_OWNERS, *_FRAMES)]
+    telling.sort(key=lambda column: column.lower() in _FRAMES)  # whose frames they are comes first
+    for column in telling:
+        if column in declared:
+            continue
+        if column.lower() in _OWNERS:
+            owners = rows[column].unique()
+            if len(owners) > 1:
+                raise SignkinError(
+                    f"{len(owners)} values in the column {column}: {listed(owners, 3)}",
+                    place=f"line {rows.index[rows[column] != owners[0]][0] + FIRST_LINE}",
+                    expected="one recording",
+                    todo=f"Declare options: {{recording_column: {column}}}, and `part`.",
+                )
+            continue
+        frames = [number(cell.strip()) for cell in rows[column]]
+        steps = [None if a is None or b is None else b - a for a, b in itertools.pairwise(frames)]
+        usual = steps[0] if steps else None
+        wrong = next((i for i, s in enumerate(steps) if s is None or s <= 0 or s != usual), None)
+        if wrong is not None and all(frame is not None for frame in frames):
             raise SignkinError(
-                f"{joint} has the columns {columns!r}", place="joints", expected="2 or 3 columns"
+                f"{column} {frames[wrong + 1]:g} follows {frames[wrong]:g}",
+                place=f"line {rows.index[wrong + 1] + FIRST_LINE}",
+                expected="frames that rise evenly, or several recordings that are told apart",
+                todo=f"Declare options: {{frame_column: {column}}}, or recording_column.",
             )
-        for axis, column in enumerate(columns):
-            positions[:, j, axis] = column_numbers(rows, column)
-    rate = None if time_column is None else _rate(column_numbers(rows, time_column), time_column)
-    return SourceMotion(rate_hz=rate, joints=tuple(joints), positions=positions)
+
+
+def _undeclared_rate(rows: pd.DataFrame) -> tuple[float, float] | None:
+    """Return the rates that an undeclared column of times leaves possible, None without such.
+
+    Its unit is the one of s, ms, us and ns under which the times are those of motion.
+    """
+    for column in rows.columns:
+        cells = [number(cell.strip()) for cell in rows[column]] if column.lower() in _TIMES else []
+        times = np.array([cell for cell in cells if cell is not None])
+        if len(times) < 2 or len(times) < len(cells):
+            continue
+        for step in SECONDS_PER.values():
+            try:
+                half = printed_half_digit(rows, column) * step
+                clock = clock_of(times * step, column, half)
+            except SignkinError:
+                continue
+            return clock.rate_range
+    return None
+
+
+def missing_texts(missing: Any) -> tuple[str, ...]:
+    """Return those of the declared missing values that are text: cells."""
+    values = missing if isinstance(missing, list | tuple) else [missing]
+    return tuple(value for value in values if isinstance(value, str))
+
+
+def missing_numbers(missing: Any) -> tuple[float, ...]:
+    """Return those of the declared missing values that are numbers: points."""
+    values = missing if isinstance(missing, list | tuple) else [missing]
+    wrong = [v for v in values if not (v is None or isinstance(v, str | int | float))]
+    if wrong:
+        raise SignkinError(
+            f"missing is {quoted(missing)}",
+            place="options, missing",
+            expected="a number, a text, or a list of them",
+        )
+    return tuple(float(v) for v in values if v is not None and not isinstance(v, str))
 
 
 def write_wide_csv(
@@ -83,88 +236,15 @@ def digits_for(noise_sd: float) -> int:
     return max(0, int(np.ceil(np.log10(NOISE_PER_DIGIT / noise_sd))))
 
 
-def read_text_table(path: Path) -> pd.DataFrame:
-    """Return a CSV file with every cell as text; a file is parsed once, however often asked for.
-
-    One file can hold hundreds of recordings. Row i of the frame is line i + 2 of the file.
-    """
-    state = Path(path).stat()
-    return _parsed(Path(path), state.st_mtime_ns, state.st_size)
-
-
-@lru_cache(maxsize=4)
-def _parsed(path: Path, mtime_ns: int, size: int) -> pd.DataFrame:
-    try:
-        return pd.read_csv(path, dtype=str, keep_default_na=False)
-    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        raise SignkinError(f"not readable as CSV ({error})") from error
-
-
-def rows_of_part(table: pd.DataFrame, column: str | None, part: str | None) -> pd.DataFrame:
-    """Return the rows of one recording, where a column tells several apart."""
-    if column is None:
-        return table
-    known_column(table, column)
-    if part is None:
-        raise SignkinError(
-            f"the table holds several recordings (column {column})",
-            expected="the recording's value in the column `part` of recordings.csv",
-        )
-    rows = table[table[column] == part]
-    if rows.empty:
-        raise SignkinError(
-            f"no row with {column} = {part}",
-            place=f"column {column}",
-            expected=listed(table[column].unique()),
-        )
-    return rows
-
-
-def known_column(table: pd.DataFrame, column: str) -> str:
-    """Return the name of a column that is there; a missing one is an error that lists them."""
-    if column not in table.columns:
-        raise SignkinError(f"no column {column!r}", expected=listed(table.columns, 40))
-    return column
-
-
-def column_numbers(rows: pd.DataFrame, column: str) -> np.ndarray:
-    """Return a column as numbers (an empty cell is NaN); other text is an error with its line."""
-    text = rows[known_column(rows, column)].str.strip()
-    gaps = text.str.lower().isin(["", "nan", "na"])
-    numbers = pd.to_numeric(text.where(~gaps), errors="coerce")
-    wrong = numbers.isna() & ~gaps
-    if wrong.any():
-        line = rows.index[wrong][0]
-        raise SignkinError(
-            f"found {text[line]!r}",
-            place=f"line {line + 2}, column {column}",
-            expected="a number, or nothing for a gap",
-        )
-    return numbers.to_numpy(dtype=float)
-
-
 def _check_frames(frames: np.ndarray, index: np.ndarray) -> None:
     wrong = ~(np.diff(frames) == 1)
     if wrong.any():
         bad = int(np.flatnonzero(wrong)[0]) + 1
         raise SignkinError(
             f"frame {frames[bad]:g} follows frame {frames[bad - 1]:g}",
-            place=f"line {index[bad] + 2}",
+            place=f"line {index[bad] + FIRST_LINE}",
             expected="frame numbers that rise by 1; write an empty cell for a gap",
         )
-
-
-def _rate(times: np.ndarray, column: str) -> float:
-    steps = np.diff(times)
-    mean = float(np.mean(steps)) if len(steps) else float("nan")
-    if not mean > 0 or np.max(np.abs(steps - mean)) > CLOCK_TOLERANCE * mean:
-        raise SignkinError(
-            f"steps of {np.min(steps):.4g} to {np.max(steps):.4g} s",
-            place=f"column {column}",
-            expected="a constant frame rate",
-            todo="Resample the recording to a constant rate first.",
-        )
-    return 1.0 / mean
 
 
 def write_positions(path: Path, recording: Recording) -> None:

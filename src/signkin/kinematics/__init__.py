@@ -7,19 +7,27 @@ from typing import TYPE_CHECKING, Any
 from signkin.kinematics.curvature import curvature  # not on first use: its file has its name
 
 if TYPE_CHECKING:
+    from signkin.clock import resample
     from signkin.kinematics.derivatives import speed, velocity
     from signkin.kinematics.filters import lowpass, response_db
-    from signkin.kinematics.gaps import fill_gaps
+    from signkin.kinematics.gaps import cut_at_gaps, fill_gaps
     from signkin.kinematics.minima import speed_minima
+    from signkin.kinematics.noise import Noise, measure_noise
     from signkin.kinematics.plausibility import check_recording
     from signkin.kinematics.rotations import parent_relative, with_limb_frames
+    from signkin.velocities import integrate
 
 __all__ = [
+    "Noise",
     "check_recording",
     "curvature",
+    "cut_at_gaps",
     "fill_gaps",
+    "integrate",
     "lowpass",
+    "measure_noise",
     "parent_relative",
+    "resample",
     "response_db",
     "speed",
     "speed_minima",
@@ -28,15 +36,20 @@ __all__ = [
 ]
 
 _HOMES = {
-    "check_recording": "plausibility",
-    "fill_gaps": "gaps",
-    "lowpass": "filters",
-    "parent_relative": "rotations",
-    "response_db": "filters",
-    "speed": "derivatives",
-    "speed_minima": "minima",
-    "velocity": "derivatives",
-    "with_limb_frames": "rotations",
+    "Noise": "kinematics.noise",
+    "check_recording": "kinematics.plausibility",
+    "cut_at_gaps": "kinematics.gaps",
+    "fill_gaps": "kinematics.gaps",
+    "integrate": "velocities",
+    "lowpass": "kinematics.filters",
+    "measure_noise": "kinematics.noise",
+    "parent_relative": "kinematics.rotations",
+    "resample": "clock",
+    "response_db": "kinematics.filters",
+    "speed": "kinematics.derivatives",
+    "speed_minima": "kinematics.minima",
+    "velocity": "kinematics.derivatives",
+    "with_limb_frames": "kinematics.rotations",
 }
 
 
@@ -45,7 +58,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         from importlib import import_module
 
-        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+        return getattr(import_module(f"signkin.{_HOMES[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

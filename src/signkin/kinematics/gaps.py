@@ -6,9 +6,15 @@ the start or end of a recording stays.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
+
+from signkin.errors import SignkinError
+from signkin.recording import Recording
 
 
 def stretches(there: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -43,3 +49,48 @@ def fill_gaps(
 def longest_stretch_s(gap: NDArray[np.bool_], rate_hz: float) -> float:
     """Return the length of the longest gap in seconds."""
     return max((b - a for a, b in stretches(gap)), default=0) / rate_hz
+
+
+def cut_at_gaps(
+    recording: Recording,
+    longest_gap_s: float,
+    joints: Sequence[str] = ("right_wrist", "left_wrist"),
+    shortest_s: float = 0.5,
+) -> list[Recording]:
+    """Return the pieces of a recording between gaps of its joints longer than `longest_gap_s`.
+
+    A frame where any of the joints is missing is a gap; shorter gaps stay in their piece. Pieces
+    shorter than `shortest_s` are left out. Each is named `<name>-<number>` from 1, and notes where
+    it starts. A recording that has no such gap is returned as it is; none left is an error.
+    """
+    tracks = np.concatenate([recording.track(joint) for joint in joints], axis=1)
+    gap = np.asarray(np.isnan(tracks).any(axis=1))
+    rate = recording.rate_hz
+    lost = np.zeros(recording.frames, dtype=bool)
+    for first, end in stretches(gap):
+        # At the ends, too, nothing is known of a gap: a short one stays there.
+        lost[first:end] = end - first > longest_gap_s * rate + 1e-9
+    if not lost.any():
+        return [recording]
+    pieces = [
+        (first, end)
+        for first, end in stretches(~lost)
+        if end - first >= max(2.0, shortest_s * rate - 1e-9)
+    ]
+    if not pieces:
+        raise SignkinError(
+            f"no stretch of {shortest_s:g} s without a gap over {longest_gap_s:g} s",
+            file=f"recording {recording.name}",
+            expected="one or more",
+        )
+    turned = recording.orientations
+    return [
+        replace(
+            recording,
+            name=f"{recording.name}-{number}",
+            positions=recording.positions[first:end],
+            orientations=None if turned is None else turned[first:end],
+            notes=(*recording.notes, f"cut from {first / rate:.3f} s to {end / rate:.3f} s"),
+        )
+        for number, (first, end) in enumerate(pieces, start=1)
+    ]

@@ -40,6 +40,15 @@ LIMITS = {
 }
 SHOULDER_WIDTH_M = 0.36
 TYPICAL_WRIST_SPEED = 1.5  # m/s, 99th percentile of ordinary signing
+# How many times too short lengths are, by how the unit was mistaken.
+MISTAKES = {
+    0.001: "in mm, read as m", 0.01: "in cm, read as m", 0.1: "in mm, read as cm",
+    10.0: "in cm, read as mm", 100.0: "in m, read as cm", 1000.0: "in m, read as mm",
+    0.0254: "in inches, read as m", 2.54: "in inches, read as cm", 25.4: "in inches, read as mm",
+    0.3048: "in feet, read as m", 30.48: "in feet, read as cm",
+    5.6444: "in the 5.6444 cm of CMU's conversions, read as cm",
+    0.056444: "in the 5.6444 cm of CMU's conversions, read as m",
+}  # fmt: skip
 # Share of the rate, not Hz: a low-pass in Hz would take the speed off that a wrong rate adds.
 SPEED_CUTOFF = 0.12
 
@@ -70,7 +79,7 @@ def check_recording(recording: Recording) -> list[Finding]:
         findings += _length_findings(recording, hand, ruler)
         findings.append(_at_rest(own, other))
     findings.append(_swap_finding(recording))
-    return findings
+    return _with_unit_advice(findings, recording)
 
 
 def metres_per_unit(recording: Recording) -> float | None:
@@ -103,7 +112,7 @@ def _length_findings(recording: Recording, hand: str, ruler: float | None) -> li
             out.append(_untestable(name, LIMITS[limb], recording, ends))
             continue
         middle = float(np.nanmedian(length))
-        out.append(_finding(name, middle, LIMITS[limb], _unit_advice(middle, LIMITS[limb])))
+        out.append(_finding(name, middle, LIMITS[limb], ""))
         if limb != "shoulder width":
             spread = float(np.nanstd(length)) / middle if middle > 0 else float("nan")
             note = "the limb changes its length: axes of different units, or poor tracking"
@@ -114,7 +123,7 @@ def _length_findings(recording: Recording, hand: str, ruler: float | None) -> li
     if reach is not None and ruler is not None:
         far = float(np.nanpercentile(reach, 99)) * ruler
         limit = LIMITS["reach"]
-        out.append(_finding(f"{hand} reach", far, limit, _unit_advice(far, limit)))
+        out.append(_finding(f"{hand} reach", far, limit, ""))
     return out
 
 
@@ -190,9 +199,27 @@ def _untestable(check: str, limit: Limit, recording: Recording, joints: tuple[st
     return Finding(check, nan, limit.unit, limit.low, limit.high, "not testable", why)
 
 
-def _unit_advice(value: float, limit: Limit) -> str:
-    for factor, unit in ((0.001, "mm"), (0.01, "cm"), (100.0, "m, declared as cm"),
-                         (1000.0, "m, declared as mm"), (10.0, "cm, declared as mm")):  # fmt: skip
-        if limit.low <= value * factor <= limit.high:
-            return f"it would be plausible if the file were in {unit}"
-    return "the unit, the joint map or the tracking is wrong"
+def _with_unit_advice(findings: list[Finding], recording: Recording) -> list[Finding]:
+    """Say of implausible lengths what would make all of them plausible: one factor, or none."""
+
+    def is_length(finding: Finding) -> bool:
+        return finding.unit == "m" and finding.verdict != "not testable" and finding.value > 0
+
+    # A reach bounds from above only: hands may stay near the body.
+    low = max((f.low / f.value for f in findings if is_length(f) and "reach" not in f.check),
+              default=0.0)  # fmt: skip
+    high = min((f.high / f.value for f in findings if is_length(f)), default=0.0)
+    if not 0 < low <= high or recording.unit == "px":
+        advice = "the unit, the joint map or the tracking is wrong"
+    else:
+        known = [factor for factor in MISTAKES if low <= factor <= high]
+        if known:
+            factor = known[0]
+            named = f": the file may be {MISTAKES[factor]}"
+        else:
+            factor, named = float(np.sqrt(low * high)), ""
+        advice = f"all lengths would be plausible {factor:.5g} times as long{named}"
+    return [
+        replace(f, note=advice) if is_length(f) and f.verdict == "implausible" else f
+        for f in findings
+    ]

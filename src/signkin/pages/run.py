@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import yaml
 
 import signkin
 from signkin.corpus import Corpus
+from signkin.errors import listed
+from signkin.exhibits import exhibits, of_groups
 from signkin.pages.audit import audit_section
 from signkin.pages.corpora import design, first_rows, origin, sign_columns, titled
+from signkin.pages.speeds import SPEED_PANELS
+from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Page, Section, TableView, figure_files
 from signkin.settings import Settings
 from signkin.studies.endres2013 import report as endres_report
@@ -23,7 +26,6 @@ from signkin.studies.one_wrist import report as one_wrist_report
 from signkin.tables import read_table
 
 S3 = ".3f"
-SPEED_PANELS = 4  # recordings drawn of a corpus without tags
 
 
 @dataclass(frozen=True)
@@ -59,11 +61,8 @@ class Sources:
 
 def make_page(sources: Sources) -> Page:
     """Return the report of a run."""
-    text = (sources.paper / "exhibits.yaml").read_text(encoding="utf-8")
-    exhibits = yaml.safe_load(text)["exhibits"]
-    labels = {exhibit["id"]: exhibit for exhibit in exhibits}
-    sections = [_summary(sources), _overview(sources, labels), audit_section(sources.results)]
-    sections += naert_report.sections(sources.naert, labels)
+    sections = [_summary(sources), *_overview(sources), audit_section(sources.results)]
+    sections += naert_report.sections(sources.naert)
     sections += endres_report.sections(
         sources.results, sources.endres, sources.corpora, sources.settings.binning.hit_window_s
     )
@@ -117,8 +116,19 @@ def _summary(sources: Sources) -> Section:
             f"{name}: recording {row.recording} is left out. {row.reason}"
             for row in excluded.itertuples()
         ]
+        notices += _read_with_notes(sources, name)
         notices += _implausible(sources, name)
     return Section("summary", "Corpora", exhibits=(view,), notices=notices)
+
+
+def _read_with_notes(sources: Sources, name: str) -> list[str]:
+    """Return what was decided in reading, each kind once with the recordings it was decided in."""
+    about = read_table(sources.shared(name, "recordings"), "recordings")
+    where: dict[str, list[str]] = {}
+    for recording, notes in zip(about["recording"], about["notes"].fillna(""), strict=True):
+        for note in str(notes).split(" | ") if notes else ():
+            where.setdefault(note, []).append(str(recording))
+    return [f"{name}: {note} ({listed(there, 5)})." for note, there in where.items()]
 
 
 def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:
@@ -158,18 +168,14 @@ def _implausible(sources: Sources, name: str) -> Iterator[str]:
         )
 
 
-def _overview(sources: Sources, labels: Mapping[str, Any]) -> Section:
-    base = sources.results / "naert2017" / "fig03"
-    view = FigureView(
-        label=labels["fig03"]["label"],
-        title=labels["fig03"]["title"],
-        caption="The rules of this run from raw motion to the report, each after those whose "
-        "output it takes; the number in brackets is the paper's section.",
-        svg=base.with_suffix(".svg"),
-        files=figure_files(base),
-        differs=labels["fig03"]["differs"],
+def _overview(sources: Sources) -> Iterator[Section]:
+    caption = (
+        "The rules of this run from raw motion to the report, each after those whose output it "
+        "takes; the number in brackets is the paper's section."
     )
-    return Section("overview", "The pipeline", exhibits=(view,))
+    for exhibit in of_groups(exhibits(sources.paper), "overview"):
+        view = exhibit_view(exhibit, sources.results / "naert2017", caption)
+        yield Section("overview", "The pipeline", exhibits=(view,))
 
 
 # --- data and choices ------------------------------------------------------------------------

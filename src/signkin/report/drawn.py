@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -15,6 +16,8 @@ from signkin.errors import SignkinError, listed
 from signkin.exhibits import Exhibit
 from signkin.figures.style import save
 
+Source = TypeVar("Source")
+
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
@@ -23,6 +26,26 @@ class Drawn:
     figure: Figure
     data: pd.DataFrame
     caption: str
+
+
+def drawings(
+    known: Mapping[str, Callable[[Source], Drawn]], source: Source, listing: Iterable[Exhibit]
+) -> dict[str, Drawn]:
+    """Draw the figures of a list: stem -> figure.
+
+    known: stem -> what draws it from the source. A figure that nothing draws is an error.
+    """
+    out = {}
+    for exhibit in listing:
+        if exhibit.stem not in known:
+            raise SignkinError(
+                f"nothing draws {exhibit.stem}",
+                file=exhibits.FILE,
+                place=f"group {exhibit.group}",
+                expected=listed(known),
+            )
+        out[exhibit.stem] = known[exhibit.stem](source)
+    return out
 
 
 def write_figures(

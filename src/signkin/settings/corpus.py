@@ -16,16 +16,38 @@ Columns = Annotated[tuple[Text, ...], Field(min_length=2, max_length=3, strict=F
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 
 
+MotionFormat = Literal[
+    "bvh", "c3d", "csv", "deeplabcut_csv", "kinect", "kinect_v2", "mediapipe_csv", "motive_csv",
+    "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv", "trc", "tsd", "vicon_csv",
+]  # fmt: skip
+Unit = Literal["m", "cm", "mm", "inch", "ft", "px"] | Positive
+
+
+class OverruledRate(Section):
+    """A rate instead of the one that the files tell."""
+
+    use: Hertz = key(text="The right rate.", unit="Hz")
+    instead_of_file: Literal[True] = key(text="That it is meant.")
+
+
 class Motion(Section):
     """How motion files are read."""
 
-    format: Literal["bvh", "pose", "csv", "tsd", "kinect"] = key(
-        text="Format of the motion files: a reader of docs/adding-a-corpus.md."
+    format: MotionFormat = key(
+        text="Format of the motion files: a reader of docs/adding-a-corpus.md, Motion formats."
     )
-    unit: Literal["m", "cm", "mm", "px"] = key(
-        "m", "Unit of length in the files; px for image coordinates."
-    )
-    rate_hz: Hertz | None = key(None, "Sampling rate, where the files do not tell it.", unit="Hz")
+    unit: (
+        Unit
+        | Annotated[tuple[Unit, ...], Field(min_length=3, max_length=3, strict=False)]
+        | None
+    ) = key(
+        None, "Unit of length in the files, where they do not tell it, or metres a unit; px for "
+        "image coordinates; a list of three, one an axis of the file.",
+    )  # fmt: skip
+    rate_hz: Hertz | OverruledRate | None = key(
+        None, "Sampling rate, where the files do not tell it; `{use: 60, instead_of_file: true}` "
+        "where they tell it wrongly.", unit="Hz",
+    )  # fmt: skip
     up: Axis | None = key(None, "The file's axis that points up.")
     right: Axis | None = key(None, "The file's axis that points to the signer's right.")
     joints: dict[str, Text | Columns] = key(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -12,7 +13,7 @@ import pandas as pd
 from signkin import tables
 from signkin.annotation import Annotation, Interval
 from signkin.annotation_rules import signs_of_hands
-from signkin.corpus import Corpus, Entry, check_checksum
+from signkin.corpus import Corpus, Entry, check_checksum, data_file
 from signkin.errors import SignkinError
 from signkin.io import read_annotation, read_recording, wants_rate
 from signkin.kinematics.rotations import with_limb_frames
@@ -40,21 +41,27 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
     """Read the recordings of a shard with their tags.
 
     A recording that cannot be used ends the run, or, where the corpus says `on_error: skip`,
-    is left out and listed.
+    is left out and listed, whatever went wrong in it or its tags.
     """
     out = Ingested()
-    for name in dict.fromkeys(n for e in entries for n in (e.motion, e.annotation) if n):
-        check_checksum(corpus, folder, name)
+    checked: set[str] = set()
     for entry in entries:
         try:
+            for name in (entry.motion, entry.annotation):
+                if name and name not in checked:
+                    if corpus.simulator is None:
+                        data_file(corpus, folder, entry, name)
+                    check_checksum(corpus, folder, name)
+                    checked.add(name)
             recording, annotation = read_entry(corpus, folder, entry)
-        except SignkinError as error:
+            intervals = _interval_rows(corpus, entry, annotation)
+            about = _about(corpus, entry, recording, annotation, intervals)
+        except Exception as error:
             out.excluded.append(excluded_row(corpus, entry.recording, "reading", error))
             continue
         out.recordings.append(recording)
-        intervals = _interval_rows(corpus, entry, annotation)
         out.intervals += intervals
-        out.about.append(_about(corpus, entry, recording, annotation, intervals))
+        out.about.append(about)
     if not out.recordings:
         raise SignkinError(
             f"none of {len(entries)} recordings can be used; the first: "
@@ -71,11 +78,19 @@ def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, A
     return recording, _annotation(corpus, folder, entry, recording)
 
 
-def excluded_row(corpus: Corpus, recording: str, stage: str, error: SignkinError) -> dict[str, Any]:
-    """Return the row that lists a recording as left out, or raise where that is not allowed."""
-    if corpus.settings.get("on_error", "stop") != "skip":
+def excluded_row(corpus: Corpus, recording: str, stage: str, error: Exception) -> dict[str, Any]:
+    """Return the row that lists a recording as left out, or raise where that is not allowed.
+
+    What is no SignkinError is a fault of this package: it is listed with its kind, and its
+    traceback stands in the log.
+    """
+    if not corpus.skips:
         raise error
-    return {**lead(corpus, recording), "stage": stage, "reason": str(error)}
+    reason = str(error)
+    if not isinstance(error, SignkinError):
+        traceback.print_exception(error)
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+    return {**lead(corpus, recording), "stage": stage, "reason": reason}
 
 
 def lead(corpus: Corpus, recording: str) -> dict[str, str]:
@@ -86,6 +101,13 @@ def lead(corpus: Corpus, recording: str) -> dict[str, str]:
 
 def _recording(corpus: Corpus, folder: Path, entry: Entry) -> Recording:
     recording = read_recording(folder / entry.motion, **corpus.motion_spec(entry))
+    if recording.unit != corpus.unit:
+        raise SignkinError(
+            f"the positions are in {recording.unit}",
+            file=folder / entry.motion,
+            place="key motion.unit",
+            expected=f"unit: {recording.unit} in corpus.yaml",
+        )
     wanted = corpus.settings["motion"].get("orientations", "none")
     try:
         if wanted == "limb_frames":
@@ -117,7 +139,7 @@ def _annotation(
     annotation = read_annotation(path, **spec)
     try:
         annotation = _one_line_of_signs(corpus, entry, annotation)
-        if not _of_role(corpus, entry, annotation, "sign"):
+        if not of_role(corpus, entry, annotation, "sign"):
             raise SignkinError("no sign", place="key annotation", expected="one or more")
         # Annotators tag video, whose last frame may end one frame after the motion does.
         annotation.refuse_past(recording.duration_s, 1.0 / recording.rate_hz)
@@ -146,13 +168,14 @@ def _interval_rows(
             "end_s": interval.end_s,
         }
         for role in corpus.tiers
-        for interval in _of_role(corpus, entry, annotation, role)
+        for interval in of_role(corpus, entry, annotation, role)
     ]
 
 
-def _of_role(
+def of_role(
     corpus: Corpus, entry: Entry, annotation: Annotation, role: str
 ) -> tuple[Interval, ...]:
+    """Return the intervals of a role (`sign`), of all hands, in order of time."""
     by_hand = corpus.tiers_of(entry)[role]
     return tuple(sorted(interval for wish in by_hand.values() for interval in annotation.of(wish)))
 
@@ -220,4 +243,5 @@ def _about(
         "tags_note": _tags_note(annotation),
         "motion_file": entry.motion,
         "annotation_file": entry.annotation,
+        "notes": " | ".join(recording.notes),
     }

@@ -48,11 +48,13 @@ def kinematics(
     out = Kinematics()
     for recording in recordings:
         start = lead(corpus, recording.name)
-        out.plausibility += [{**start, **asdict(f)} for f in check_recording(recording)]
-        out.gaps += [{**start, **row} for row in _gap_rows(recording, settings.longest_gap_s)]
         try:
+            findings = [{**start, **asdict(f)} for f in check_recording(recording)]
+            gaps = [{**start, **row} for row in _gap_rows(recording, settings.longest_gap_s)]
+            out.plausibility += findings
+            out.gaps += gaps
             frame, minima = _wrists(recording, settings)
-        except SignkinError as error:
+        except Exception as error:
             out.excluded.append(excluded_row(corpus, recording.name, "wrists", error))
             continue
         out.frames.append(frame)

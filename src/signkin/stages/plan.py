@@ -55,7 +55,7 @@ class Plan:
 
     def corpora_files(self, corpus: str) -> list[str]:
         """Return all data files of a corpus."""
-        return [str(self.folders[corpus] / name) for name in self.corpora[corpus].files()]
+        return self._there(corpus, self.corpora[corpus].files())
 
     @property
     def continuous(self) -> list[str]:
@@ -114,14 +114,19 @@ class Plan:
 
     def files(self, corpus: str, shard: str) -> list[str]:
         """Return the data files that a shard's recordings lie in."""
-        folder = self.folders[corpus]
         names = [n for e in self.entries(corpus, shard) for n in (e.motion, e.annotation) if n]
-        return [str(folder / name) for name in dict.fromkeys(names)]
+        return self._there(corpus, list(dict.fromkeys(names)))
 
     def annotation_files(self, corpus: str) -> list[str]:
         """Return the annotation files of a corpus."""
         names = dict.fromkeys(e.annotation for e in self.corpora[corpus].entries if e.annotation)
-        return [str(self.folders[corpus] / name) for name in names]
+        return self._there(corpus, list(names))
+
+    def _there(self, corpus: str, names: list[str]) -> list[str]:
+        """Return the paths of data files; a corpus that skips recordings may lack some."""
+        paths = [self.folders[corpus] / name for name in names]
+        skips = self.corpora[corpus].skips
+        return [str(path) for path in paths if not skips or path.exists()]
 
     def description(self, corpus: str) -> list[str]:
         """Return the files of the corpus's own folder."""

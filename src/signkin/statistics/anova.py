@@ -6,6 +6,7 @@ see whether the data allow them, and to say so where they do not.
 
 from __future__ import annotations
 
+import warnings
 from itertools import combinations
 
 import numpy as np
@@ -16,6 +17,7 @@ from scipy import stats
 from statsmodels.regression.linear_model import RegressionResultsWrapper
 from statsmodels.stats.anova import anova_lm
 from statsmodels.stats.oneway import anova_oneway
+from statsmodels.tools.sm_exceptions import SingularMatrixWarning
 
 from signkin.errors import listed
 from signkin.statistics.effects import eta_squared, omega_squared, share_interval
@@ -363,7 +365,10 @@ class _Fitted:
 
 
 def _ols(formula: str, data: pd.DataFrame) -> _Fitted:
-    return _Fitted(smf.ols(formula, data).fit())
+    with warnings.catch_warnings():
+        # Crossed levels that never meet: degrees of freedom are counted by the rank.
+        warnings.simplefilter("ignore", SingularMatrixWarning)
+        return _Fitted(smf.ols(formula, data).fit())
 
 
 def _why_no_error(model: _Fitted) -> str:

@@ -14,7 +14,7 @@ from signkin.statistics.findings import Finding, Kind, untestable
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
-ISOCHRONY = "isochrony exponent"
+PEARSON, SPEARMAN, ISOCHRONY = "Pearson", "Spearman", "isochrony exponent"
 
 
 def bootstrap(
@@ -60,7 +60,7 @@ def correlations(
     """Return Pearson's and Spearman's correlation with bootstrap intervals."""
     n = len(distance)
     out = []
-    tests = {"Pearson": stats.pearsonr, "Spearman": stats.spearmanr}
+    tests = {PEARSON: stats.pearsonr, SPEARMAN: stats.spearmanr}
     for test, function in tests.items():
         reason = _why_no_line(distance, duration)
         if reason:
@@ -68,7 +68,7 @@ def correlations(
             continue
         units, unit = resampled_units(recordings, least_recordings)
 
-        def of(rows: Rows, ranks: bool = test == "Spearman") -> float:
+        def of(rows: Rows, ranks: bool = test == SPEARMAN) -> float:
             x, y = distance[rows], duration[rows]
             if np.ptp(x) == 0 or np.ptp(y) == 0:
                 return float("nan")

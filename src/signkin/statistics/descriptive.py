@@ -89,10 +89,20 @@ def _printed(durations: Times, kept: Times, paper: Mapping[str, str]) -> dict[st
     without = len(kept) < len(durations)
     out = {}
     for key, printer in (("n", lambda d, _: str(len(d))), ("mean", _mean), ("sd", _sd)):
-        out[key] = printer(durations, paper.get(key, ""))
+        out[key] = printer(durations, _model(paper, key, ""))
         if without:
-            out[key] += f" ({printer(kept, paper.get(f'{key}_without_outlier', ''))})"
+            out[key] += f" ({printer(kept, _model(paper, key, '_without_outlier'))})"
     return {f"printed_{key}": text for key, text in out.items()}
+
+
+def _model(paper: Mapping[str, str], key: str, suffix: str) -> str:
+    """Return the print that sets the number of decimals; '' for none.
+
+    The paper prints 0 for the SD of one value, which has none: no SD has its decimals.
+    """
+    if key == "sd" and paper.get(f"n{suffix}") == "1":
+        return ""
+    return paper.get(f"{key}{suffix}", "")
 
 
 def _mean(durations: Times, printed: str) -> str:

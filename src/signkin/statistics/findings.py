@@ -41,8 +41,9 @@ class Finding:
     two. statistic: of the kind `statistic_name` (F, H, t, ...). effect: of the kind
     `effect_name`, with its interval. assumptions: checks in words. power: of this test at this n,
     for the effect named in `power_for`. spread_s: the SD of the true means (s) that the effect
-    stands for. decisive: whether the question is decided by it. reason: why there is no test.
-    notes: what else must be known to read the row.
+    stands for. decisive: whether the question is decided by it. p_holm: p adjusted for all tests
+    that ask the same (`multiplicity.holm`). reason: why there is no test. notes: what else must be
+    known to read the row.
     """
 
     test: str
@@ -64,6 +65,7 @@ class Finding:
     power_for: str = ""
     spread_s: float = NAN
     decisive: bool = False
+    p_holm: float = NAN
     reason: str = ""
     notes: tuple[str, ...] = ()
 
@@ -81,7 +83,7 @@ class Finding:
 # As in tables.TABLES["statistics"].
 COLUMNS = ("test", "kind", "comparison", "statistic_name", "statistic", "df1", "df2", "p",
            "effect_name", "effect", "effect_low", "effect_high", "n", "assumptions", "power",
-           "power_for", "spread_s", "decisive", "note")  # fmt: skip
+           "power_for", "spread_s", "decisive", "p_holm", "note")  # fmt: skip
 
 
 def untestable(test: str, kind: Kind, comparison: str, n: int, reason: str) -> Finding:

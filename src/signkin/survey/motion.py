@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import periodogram
 
+from signkin.errors import SignkinError
 from signkin.joints import HANDS
 from signkin.kinematics.gaps import fill_gaps, longest_stretch_s, stretches
+from signkin.kinematics.noise import measure_noise
 from signkin.kinematics.plausibility import check_recording
 from signkin.recording import Recording
 from signkin.survey.notices import Notice, judged, untestable
@@ -28,8 +30,6 @@ SWAPPED = (
     "points to the signer's left"
 )
 WIDEST_M = 2.5  # the space that two wrists reach while their owner stands
-# Robust scatter of third differences is this many times the noise's SD, for white noise.
-THIRD_DIFFERENCES = np.sqrt(20.0)
 TORN_SDS = 25.0  # a third difference this far out is a jump, not noise nor movement
 
 
@@ -210,17 +210,8 @@ def _body(recording: Recording) -> list[Notice]:
 
 
 def noise_sd(recording: Recording) -> float:
-    """Return the noise of the wrists' positions that varies from frame to frame, in their unit.
-
-    Robust SD of third differences over sqrt(20), root mean square over hands and axes that move;
-    NaN where there are too few frames. Smoothed data show less than the device has.
-    """
-    found = []
-    for path in wrists(recording).values():
-        third = np.diff(path, n=3, axis=0)
-        for column in third.T:
-            column = column[np.isfinite(column)]
-            if len(column) >= 20 and np.ptp(column) > 0:
-                middle = np.median(column)
-                found.append(1.4826 * np.median(np.abs(column - middle)) / THIRD_DIFFERENCES)
-    return float(np.sqrt(np.mean(np.square(found)))) if found else float("nan")
+    """Return the measured noise of the wrists that there are, NaN where it cannot be measured."""
+    try:
+        return measure_noise(recording, [f"{hand}_wrist" for hand in wrists(recording)]).sd
+    except SignkinError:
+        return float("nan")

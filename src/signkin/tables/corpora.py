@@ -30,6 +30,7 @@ TABLES = (
             text("tags_note", "the first of them with their places, and tiers that are empty"),
             text("motion_file", "file of the motion, in the corpus's data folder"),
             text("annotation_file", "file of the annotation"),
+            text("notes", "what was decided in reading the motion (an overruled rate, ...)"),
         ),
     ),
     Table(

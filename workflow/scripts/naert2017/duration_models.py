@@ -16,10 +16,15 @@ with job(snakemake):
         tables.read_table(source.transitions, "transitions"), speeds, unit, settings
     )
     models, predictions = durations_models.models(name, learn, settings, printed, params.seed)
-    theta = durations_surface.coefficients(name, learn, settings, printed, params.seed)
-    tables.write_table(speeds, out.speeds, "transition_speeds", unit)
-    tables.write_table(models, out.models, "duration_models")
-    tables.write_table(theta, out.coefficients, "duration_coefficients")
-    tables.write_table(predictions, out.predictions, "duration_predictions")
+    made = {
+        "transition_speeds": speeds,
+        "duration_models": models,
+        "duration_coefficients": durations_surface.coefficients(
+            name, learn, settings, printed, params.seed
+        ),
+        "duration_predictions": predictions,
+    }
+    for kind, table in made.items():
+        tables.write_table(table, out[kind], kind, unit)
     with paper_style():
         save(durations_figures.draw_predictions(predictions), *out.figure)

@@ -1,37 +1,33 @@
 from signkin.job import job
 
 with job(snakemake):
-    import json
     from pathlib import Path
 
     import pandas as pd
 
     from signkin import tables
     from signkin.corpus import load_corpus
-    from signkin.figures.style import paper_style, save
-    from signkin.studies.naert2017 import exhibits as naert2017
+    from signkin.exhibits import exhibits, of_groups
+    from signkin.figures.style import paper_style
+    from signkin.report.drawn import write_figures
+    from signkin.studies.naert2017.distances import diamond_table
+    from signkin.studies.naert2017.figures.of_transitions import Measured, draw
 
-    source, out = snakemake.input, snakemake.output
-    corpus = load_corpus(Path(snakemake.params.corpus))
-    transitions = tables.read_table(source.transitions, "transitions")
-    with paper_style():
-        drawn = naert2017.draw(
-            corpus,
-            transitions,
-            tables.read_table(source.boundaries, "boundaries"),
-            tables.read_table(source.sign_types, "sign_types"),
-            tables.read_table(source.minima, "minima"),
-            [Path(path) for path in source.frames],
-            pd.read_csv(source.published, dtype=str, keep_default_na=False),
-            snakemake.params.settings,
-        )
-        for name, svg, pdf, csv in zip(naert2017.FIGURES, out.svg, out.pdf, out.csv, strict=True):
-            save(drawn[name].figure, svg, pdf)
-            kind = naert2017.FIGURE_TABLES[name]
-            tables.write_table(drawn[name].data, csv, kind, corpus.unit)
-    corners = naert2017.diamond_table(
-        corpus.name, transitions, snakemake.params.settings["transitions"]
+    source, out, params = snakemake.input, snakemake.output, snakemake.params
+    corpus = load_corpus(Path(params.corpus))
+    listing = of_groups(exhibits(Path(source.exhibits).parent), *params.groups)
+    measured = Measured(
+        corpus=corpus,
+        boundaries=tables.read_table(source.boundaries, "boundaries"),
+        sign_types=tables.read_table(source.sign_types, "sign_types"),
+        transitions=tables.read_table(source.transitions, "transitions"),
+        minima=tables.read_table(source.minima, "minima"),
+        frames=[Path(path) for path in source.frames],
+        published=pd.read_csv(source.published, dtype=str, keep_default_na=False),
+        settings=params.settings,
     )
+    folder = Path(out.captions).parent
+    with paper_style():
+        write_figures(draw(measured, listing), listing, folder, out.captions, corpus.unit)
+    corners = diamond_table(corpus.name, measured.transitions, params.settings.transitions)
     tables.write_table(corners, out.diamond, "diamond")
-    captions = {name: figure.caption for name, figure in drawn.items()}
-    Path(out.captions).write_text(json.dumps(captions, indent=1) + "\n", encoding="utf-8")

@@ -9,14 +9,15 @@ with job(snakemake):
     from signkin.io.store import read_recordings
     from signkin.studies.naert2017.open_choices import multiverse
 
+    source = snakemake.input
     corpus = load_corpus(Path(snakemake.params.corpus))
     table = multiverse(
         corpus,
-        chain.from_iterable(read_recordings(path) for path in snakemake.input.recordings),
-        tables.read_table(snakemake.input.intervals, "intervals"),
-        tables.read_table(snakemake.input.transitions, "transitions"),
-        tables.read_table(snakemake.input.excluded, "excluded"),
+        chain.from_iterable(read_recordings(path) for path in source.recordings),
+        tables.read_table(source.intervals, "intervals"),
+        tables.read_table(source.transitions, "transitions"),
+        tables.read_table(source.excluded, "excluded"),
         snakemake.params.settings,
         snakemake.params.seed,
     )
-    tables.write_table(table, snakemake.output.table, "multiverse", corpus.unit)
+    tables.write_table(table, snakemake.output.multiverse, "multiverse", corpus.unit)

@@ -5,8 +5,8 @@ with job(snakemake):
 
     from signkin import tables
     from signkin.figures.style import paper_style, save
-    from signkin.studies.naert2017 import exhibits as naert2017
     from signkin.studies.naert2017 import simulation
+    from signkin.studies.naert2017.figures.simulation import draw_simulation
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     name = snakemake.wildcards.corpus
@@ -14,7 +14,7 @@ with job(snakemake):
         name,
         tables.read_table(source.boundaries, "boundaries"),
         tables.read_table(source.truth, "truth"),
-        settings["refinement"]["draws"],
+        settings.refinement.draws,
         snakemake.params.seed,
     )
     surface = simulation.surface(
@@ -22,9 +22,9 @@ with job(snakemake):
         tables.read_table(source.transitions, "transitions"),
         tables.read_table(source.design, "design"),
         pd.read_csv(source.constants, dtype=str, keep_default_na=False),
-        settings["transitions"]["euclidean_unit_m"],
+        settings.transitions.euclidean_unit_m,
     )
-    tables.write_table(summary, out.truth_error, "truth_error")
-    tables.write_table(surface, out.surface, "surface")
+    for kind, table in {"truth_error": summary, "surface": surface}.items():
+        tables.write_table(table, out[kind], kind)
     with paper_style():
-        save(naert2017.draw_simulation(errors, surface), *out.figure)
+        save(draw_simulation(errors, surface), *out.figure)

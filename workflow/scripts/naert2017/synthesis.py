@@ -5,8 +5,9 @@ with job(snakemake):
 
     from signkin import tables
     from signkin.corpus import load_corpus
-    from signkin.studies.naert2017.synthesis.comparison import comparison, summary
-    from signkin.studies.naert2017.synthesis.utterance import load_database
+    from signkin.studies.naert2017.synthesis.comparison import comparison
+    from signkin.studies.naert2017.synthesis.database import load_database
+    from signkin.studies.naert2017.synthesis.summary import summary
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
@@ -14,6 +15,6 @@ with job(snakemake):
         corpus, source.recordings, source.intervals, source.excluded, params.settings
     )
     rows = comparison(base, params.settings)
-    tables.write_table(rows, out.synthesis, "synthesis", corpus.unit)
     errors = summary(rows, corpus, params.draws, params.seed)
-    tables.write_table(errors, out.summary, "synthesis_summary", corpus.unit)
+    for kind, table in {"synthesis": rows, "synthesis_summary": errors}.items():
+        tables.write_table(table, out[kind], kind, corpus.unit)

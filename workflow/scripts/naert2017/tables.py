@@ -9,8 +9,13 @@ with job(snakemake):
     from signkin.coarticulation.transitions import with_normalised
     from signkin.corpus import load_corpus
     from signkin.figures.style import paper_style, save
-    from signkin.studies.naert2017 import coarticulation
-    from signkin.studies.naert2017 import exhibits as naert2017
+    from signkin.studies.naert2017.figures.refinement_quality import draw_quality
+    from signkin.studies.naert2017.lexicon import lexicon_use
+    from signkin.studies.naert2017.refinement import refinement
+    from signkin.studies.naert2017.table1 import table1
+    from signkin.studies.naert2017.table2 import table2
+    from signkin.studies.naert2017.tag_chance import tag_chance
+    from signkin.studies.naert2017.transitions import left_out
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
@@ -20,32 +25,29 @@ with job(snakemake):
     raw = tables.concatenated(source.transitions, "raw_transitions", unit)
     intervals = tables.read_table(source.intervals, "intervals")
     minima = tables.read_table(source.minima, "minima")
+    about = tables.read_table(source.about, "recordings")
     published = pd.read_csv(source.published, dtype=str, keep_default_na=False)
 
     moves = with_normalised(raw, unit)
-    lexicon = coarticulation.lexicon_use(corpus, sign_types)
-    table1 = coarticulation.table1(corpus, intervals, sign_types)
-    table2 = naert2017.table2(corpus.name, moves, published, settings["transitions"])
-    refinement, chance = coarticulation.refinement(
-        corpus,
-        tables.read_table(source.about, "recordings"),
-        intervals,
-        minima,
-        boundaries,
-        settings["refinement"],
-        snakemake.params.seed,
+    quality, chance = refinement(
+        corpus, about, intervals, minima, boundaries, settings.refinement, snakemake.params.seed
     )
-    for table, name, path in (
-        (boundaries, "boundaries", out.boundaries),
-        (sign_types, "sign_types", out.sign_types),
-        (moves, "transitions", out.transitions),
-        (naert2017.left_out(moves), "transitions", out.left_out),
-        (lexicon, "lexicon", out.lexicon),
-        (table1, "table1", out.table1),
-        (table2, "table2", out.table2),
-        (refinement, "refinement", out.refinement),
-    ):
-        tables.write_table(table, path, name, unit)
+    tagged = dict.fromkeys(boundaries["recording"])
+    near = tag_chance(
+        corpus, about, intervals, minima, tagged, settings.refinement, snakemake.params.seed
+    )
+    made = {
+        "boundaries": ("boundaries", boundaries),
+        "sign_types": ("sign_types", sign_types),
+        "transitions": ("transitions", moves),
+        "left_out": ("transitions", left_out(moves)),
+        "lexicon": ("lexicon", lexicon_use(corpus, sign_types)),
+        "table1": ("table1", table1(corpus, intervals, sign_types)),
+        "table2": ("table2", table2(corpus.name, moves, published, settings.transitions)),
+        "refinement": ("refinement", quality),
+        "tag_chance": ("tag_chance", near),
+    }
+    for name, (kind, table) in made.items():
+        tables.write_table(table, out[name], kind, unit)
     with paper_style():
-        window_s = settings["refinement"]["window_s"]
-        save(naert2017.draw_quality(boundaries, chance, window_s), *out.quality)
+        save(draw_quality(boundaries, chance, settings.refinement.search_window_s), *out.quality)

@@ -5,26 +5,23 @@ with job(snakemake):
 
     from signkin import tables
     from signkin.corpus import load_corpus
-    from signkin.studies.naert2017.synthesis.utterance import (
-        load_database,
-        printed_theta,
-        utterance_files,
-    )
+    from signkin.studies.naert2017.synthesis.database import load_database
+    from signkin.studies.naert2017.synthesis.duration_models import printed_theta
+    from signkin.studies.naert2017.synthesis.utterance_files import utterance_files, wanted_of
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
     base, found = load_database(
         corpus, source.recordings, source.intervals, source.excluded, params.settings
     )
-    wanted = params.settings["synthesis"]["utterances"]
     parts = utterance_files(
         corpus,
         Path(params.data),
         base,
-        {u["name"]: u["glosses"] for u in wanted if u["corpus"] == corpus.name},
+        wanted_of(corpus.name, params.settings.synthesis.utterances),
         params.settings,
         printed_theta(source.constants),
         Path(out.folder),
     )
-    tables.write_table(parts, out.parts, "utterances", corpus.unit)
-    tables.write_table(found, out.found, "found_signs", corpus.unit)
+    for kind, table in {"utterances": parts, "found_signs": found}.items():
+        tables.write_table(table, out[kind], kind, corpus.unit)

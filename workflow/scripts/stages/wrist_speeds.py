@@ -5,11 +5,10 @@ with job(snakemake):
 
     from signkin import tables
     from signkin.figures.style import paper_style, save
-    from signkin.pages.run import SPEED_PANELS
-    from signkin.studies.naert2017.exhibits import draw_speeds
+    from signkin.pages.speeds import draw_speeds
 
     minima = tables.read_table(snakemake.input.minima, "minima")
     frames = [Path(path) for path in snakemake.input.frames]
     with paper_style():
-        figure = draw_speeds(frames, minima, snakemake.params.unit, SPEED_PANELS)
+        figure = draw_speeds(frames, minima, snakemake.params.unit)
         save(figure, *snakemake.output.figure)

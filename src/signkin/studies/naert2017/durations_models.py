@@ -21,13 +21,17 @@ from signkin.coarticulation.duration import (
     SurfaceDuration,
     Transitions,
     predict_left_out,
+    simple_weight,
 )
 from signkin.errors import SignkinError
+from signkin.settings.sections import Durations
 from signkin.statistics import association
 from signkin.statistics.findings import joined
-from signkin.studies.naert2017.exhibits import counted
+from signkin.studies.naert2017.settings import DurationSettings
+from signkin.studies.naert2017.transitions import counted
 
 MODELS = ("MEAN", "SIMPLE", "SIMPLE_BOUNDED", "LINEAR", "SURFACE", "SURFACE_PRINTED")
+ONE_DISTANCE = "no geodesic distance: its Euclidean part alone"
 NOTHING_LEARNT = "nothing is learnt: the same in every evaluation"
 
 
@@ -47,13 +51,18 @@ class Learnable:
     absent: Mapping[str, str]
 
     @property
+    def geodesic(self) -> bool:
+        """Whether the corpus has a geodesic distance."""
+        return bool(np.isfinite(self.data.geodesic).any())
+
+    @property
     def unit_in_words(self) -> str:
         """The unit as an axis names it."""
         return self.unit if self.unit == "px" else f"units of {self.unit}"
 
 
 def learnable(
-    transitions: pd.DataFrame, speeds: pd.DataFrame, unit: str, settings: Mapping[str, Any]
+    transitions: pd.DataFrame, speeds: pd.DataFrame, unit: str, settings: DurationSettings
 ) -> Learnable:
     """Return the transitions between manual tags that all testable models can use."""
     rows = counted(transitions).merge(
@@ -61,9 +70,9 @@ def learnable(
         on=["corpus", "recording", "signer", "transition"],
         validate="one_to_one",
     )
-    scale = settings["transitions"]["euclidean_unit_m"] if unit == "m" else 1.0
+    scale = settings.transitions.euclidean_unit_m if unit == "m" else 1.0
     name = f"{scale:g} m" if unit == "m" else "px"
-    angle = 1.0 if settings["durations"]["simple_angle"] == "half" else 2.0
+    angle = 1.0 if settings.durations.simple_angle == "half" else 2.0
     sides = ("previous", "next")
     linear = [f"{side}_linear_speed_{unit}_per_s" for side in sides]
     angular = [f"{side}_angular_speed_rad_per_s" for side in sides]
@@ -83,11 +92,8 @@ def learnable(
         )  # fmt: skip
     else:
         reason = "no orientations, so no geodesic distance"
-        absent |= dict.fromkeys(("SIMPLE", "SIMPLE_BOUNDED", "SURFACE", "SURFACE_PRINTED"), reason)
-        if settings["durations"]["simple_alpha"] == 1:
-            for model in ("SIMPLE", "SIMPLE_BOUNDED"):
-                del absent[model]
-            usable["a sign without speed"] = data.linear_speed.sum(axis=1) > 0
+        absent |= dict.fromkeys(("SURFACE", "SURFACE_PRINTED"), reason)
+        usable["a sign without speed"] = data.linear_speed.sum(axis=1) > 0
     if unit != "m":
         absent["SURFACE_PRINTED"] = "distances in px, theta in metres"
     kept = np.logical_and.reduce(list(usable.values()))
@@ -98,12 +104,15 @@ def learnable(
 
 
 def makers(
-    settings: Mapping[str, Any], constants: Mapping[str, str]
+    settings: DurationSettings, constants: Mapping[str, str], geodesic: bool
 ) -> dict[str, Callable[[], DurationModel]]:
-    """Return how each model is made. constants: numbers printed in the paper, as strings."""
-    chosen = settings["durations"]
-    alpha = chosen["simple_alpha"]
-    bounds = {"low_s": chosen["lowest_s"], "high_s": chosen["highest_s"]}
+    """Return how each model is made. constants: numbers printed in the paper, as strings.
+
+    geodesic: whether the corpus has this distance.
+    """
+    chosen = settings.durations
+    alpha = simple_weight(chosen.simple_alpha, geodesic)
+    bounds = {"low_s": chosen.lowest_s, "high_s": chosen.highest_s}
     printed = np.array([float(constants[f"theta_{term}"]) for term in TERMS])
     return {
         "MEAN": MeanDuration,
@@ -118,12 +127,12 @@ def makers(
 def models(
     corpus: str,
     learn: Learnable,
-    settings: Mapping[str, Any],
+    settings: DurationSettings,
     constants: Mapping[str, str],
     seed: int,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the tables `duration_models` and `duration_predictions`."""
-    chosen = settings["durations"]
+    chosen = settings.durations
     errors, predicted = [], []
     baseline: dict[str, np.ndarray] = {}
     recordings = list(learn.rows["recording"])
@@ -132,7 +141,7 @@ def models(
         "leave_one_out": list(range(len(learn.data))),
         "leave_one_recording_out": recordings,
     }
-    for name, make in makers(settings, constants).items():
+    for name, make in makers(settings, constants, learn.geodesic).items():
         for evaluation, members in groups.items():
             lead: dict[str, Any] = {"corpus": corpus, "model": name, "evaluation": evaluation}
             lead["n"] = len(learn.data)
@@ -152,6 +161,8 @@ def models(
             note = learn.note
             if name.startswith("SIMPLE") or name == "SURFACE_PRINTED":
                 note = joined(NOTHING_LEARNT, note)
+            if name.startswith("SIMPLE") and not learn.geodesic:
+                note = joined(note, ONE_DISTANCE)
             if name == "MEAN":
                 baseline[evaluation] = np.abs(found - learn.data.duration_s)
             # One stream for all: models are compared on the same draws.
@@ -173,17 +184,18 @@ def _errors(
     baseline: np.ndarray,
     learn: Learnable,
     recordings: list[str],
-    chosen: Mapping[str, Any],
+    chosen: Durations,
     rng: np.random.Generator,
 ) -> dict[str, float]:
     residual = found - learn.data.duration_s
-    units, _ = association.resampled_units(recordings, chosen["bootstrap_recordings"])
-    absolute = np.abs(residual)
+    units, _ = association.resampled_units(recordings, chosen.bootstrap_recordings)
+    absolute, too_long = np.abs(residual), _too_long(residual)
+    parts = (absolute, baseline - absolute, residual, too_long)
 
     def means(rows: np.ndarray) -> np.ndarray:
-        return np.array([absolute[rows].mean(), (baseline - absolute)[rows].mean()])
+        return np.array([part[rows].mean() for part in parts])
 
-    low, high = association.bootstrap(means, units, chosen["draws"], chosen["alpha"], rng)
+    low, high = association.bootstrap(means, units, chosen.draws, chosen.alpha, rng)
     measured = {
         "mean_error_s": absolute.mean(),
         "mean_error_low_s": low[0],
@@ -193,11 +205,21 @@ def _errors(
         "gain_high_s": high[1],
         "rmse_s": np.sqrt(np.mean(residual**2)),
         "bias_s": residual.mean(),
+        "bias_low_s": low[2],
+        "bias_high_s": high[2],
+        "share_too_long": too_long.mean(),
+        "share_too_long_low": low[3],
+        "share_too_long_high": high[3],
         "longest_s": found.max(),
-        "share_above_bound": (found > chosen["highest_s"] + 1e-12).mean(),
+        "share_above_bound": (found > chosen.highest_s + 1e-12).mean(),
     }
     # A bias of least squares is 0 but for rounding.
     return {name: round(float(value), 12) for name, value in measured.items()}
+
+
+def _too_long(residual: np.ndarray) -> np.ndarray:
+    """Return 1 for a prediction that is too long, 0 for one too short, 0.5 for an exact one."""
+    return 0.5 + 0.5 * np.sign(np.round(residual, 12))
 
 
 def _predictions(rows: pd.DataFrame, name: str, found: np.ndarray) -> pd.DataFrame:

@@ -1,15 +1,15 @@
 """Claims of Naert et al. 2017 under every combination of choices that the paper leaves open.
 
 The same library functions as the pipeline's, run over a grid: low-pass, depth of a minimum,
-refinement window (config: multiverse), each hand, outliers kept or left out.
+refinement window (config: open_choices.naert2017), each hand, outliers kept or left out.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from itertools import product
+from dataclasses import dataclass, field
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from signkin import seeds, tables
+from signkin.annotation import Interval
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance, normalised
 from signkin.coarticulation.segmentation import chance_distances, nearest, refine
 from signkin.corpus import Corpus
@@ -25,10 +26,16 @@ from signkin.joints import HANDS, arm_joints
 from signkin.kinematics.derivatives import speed
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
-from signkin.kinematics.rotations import parent_relative
 from signkin.recording import Recording
 from signkin.statistics.descriptive import outliers
-from signkin.studies.naert2017.coarticulation import filled_recording, intervals_of, utterances_of
+from signkin.studies.naert2017.settings import GridSettings
+from signkin.studies.naert2017.tagged import (
+    filled_recording,
+    intervals_of,
+    turns_of,
+    utterances_of,
+)
+from signkin.studies.naert2017.transitions import between_manual
 
 ALPHA = 0.05
 MAJORITY = 0.5  # 4.2: "a correct segmentation for a majority of cases"
@@ -51,15 +58,74 @@ class Setting:
 class Gathered:
     """What a setting gives, over all recordings of a corpus."""
 
-    durations: list[Floats]
-    changes: list[Floats]
-    geodesic: list[Floats]
-    euclidean: list[Floats]
-    types: list[str]
+    durations: list[Floats] = field(default_factory=list)
+    changes: list[Floats] = field(default_factory=list)
+    geodesic: list[Floats] = field(default_factory=list)
+    euclidean: list[Floats] = field(default_factory=list)
+    types: list[str] = field(default_factory=list)
     near: int = 0
     moved: int = 0
     tags: int = 0
     chance: Floats | None = None  # tags near a minimum, in each set of random tags
+
+    def add_tags(self, manual: Floats, minima: Floats, random: Floats, reach_s: float) -> None:
+        """Count tags (N, 2), and sets of random ones (draws, 2 N), with a minimum so near."""
+        distance = np.abs(nearest(manual, minima) - manual)
+        self.near += int((distance <= reach_s).sum())
+        self.tags += manual.size
+        hits = (random <= reach_s).sum(axis=1).astype(float)
+        self.chance = hits if self.chance is None else self.chance + hits
+
+    def add_transitions(self, take: _Take, refined: Floats, joints: list[int]) -> None:
+        """Add the transitions of a recording between refined tags (N, 2), for one arm's joints."""
+        start, end = refined[take.before, 1], refined[take.before + 1, 0]
+        self.durations.append(np.round(end - start, 9))
+        was = take.manual[take.before + 1, 0] - take.manual[take.before, 1]
+        self.changes.append(np.round(np.abs(end - start - was), 6))
+        geodesic, euclidean = _distances(take.filled, take.turns, start, end, joints)
+        self.geodesic.append(geodesic)
+        self.euclidean.append(euclidean)
+        self.types += take.types
+
+
+@dataclass(frozen=True, eq=False)
+class _Take:
+    """A recording as the grid runs over it.
+
+    manual: tags (signs, 2). before: signs with a transition after them. types: of these.
+    turns: the orientations that distances take, or None.
+    """
+
+    name: str
+    filled: Recording
+    turns: Floats | None
+    signs: list[Interval]
+    manual: Floats
+    before: NDArray[np.int_]
+    types: list[str]
+
+    @classmethod
+    def of(
+        cls,
+        corpus: Corpus,
+        recording: Recording,
+        intervals: pd.DataFrame,
+        types: list[str],
+        settings: GridSettings,
+    ) -> _Take:
+        signs = intervals_of(intervals, recording.name, "sign")
+        utterances = utterances_of(corpus, intervals, recording.name, signs)
+        follows = (u and u == v for u, v in pairwise(utterances))
+        filled = filled_recording(recording, settings.kinematics.longest_gap_s)
+        return cls(
+            name=recording.name,
+            filled=filled,
+            turns=turns_of(filled, settings.transitions.geodesic_frame),
+            signs=signs,
+            manual=np.array([(sign.start_s, sign.end_s) for sign in signs]).reshape(-1, 2),
+            before=np.array([i for i, there in enumerate(follows) if there], dtype=int),
+            types=types,
+        )
 
 
 def multiverse(
@@ -68,27 +134,28 @@ def multiverse(
     intervals: pd.DataFrame,
     transitions: pd.DataFrame,
     excluded: pd.DataFrame,
-    settings: Mapping[str, Any],
+    settings: GridSettings,
     seed: int,
 ) -> pd.DataFrame:
     """Return the table `multiverse` of a corpus.
 
     transitions: the pipeline's table, which has the types and the manual transitions.
     excluded: the table of recordings that are left out.
-    settings: config.yaml (kinematics, refinement, transitions, multiverse).
     """
-    grid = settings["multiverse"]
-    gathered: dict[Setting, Gathered] = defaultdict(lambda: Gathered([], [], [], [], []))
-    whole = (transitions["segmentation"] == "manual") & (transitions["hand"] == "both")
-    manual = transitions[whole]
+    grid = settings.choices
+    gathered: dict[Setting, Gathered] = defaultdict(Gathered)
+    manual = between_manual(transitions)
     signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
     used = signed - set(excluded["recording"])
     for recording in recordings:
         if recording.name in used:
             types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
-            _add(corpus, recording, intervals, types, settings, seed, gathered)
+            take = _Take.of(corpus, recording, intervals, types, settings)
+            _add(corpus.name, take, settings, seed, gathered)
     rows = list(_manual_rows(manual, settings))
-    for setting in (Setting(*s) for s in product(HANDS, *(grid[k] for k in _GRID))):
+    for setting in (
+        Setting(*s) for s in product(HANDS, grid.cutoff_hz, grid.prominence, grid.search_window_s)
+    ):
         if setting in gathered:
             rows += _refined_rows(setting, gathered[setting], settings)
     for row in rows:
@@ -99,64 +166,33 @@ def multiverse(
     return frame.sort_values("claim", kind="stable", ignore_index=True)
 
 
-_GRID = ("cutoff_hz", "prominence", "window_s")
-
-
 def _add(
-    corpus: Corpus,
-    recording: Recording,
-    intervals: pd.DataFrame,
-    types: list[str],
-    settings: Mapping[str, Any],
+    corpus: str,
+    take: _Take,
+    settings: GridSettings,
     seed: int,
     gathered: dict[Setting, Gathered],
 ) -> None:
     """Add one recording to what each setting gathers."""
-    grid, rate = settings["multiverse"], recording.rate_hz
-    signs = intervals_of(intervals, recording.name, "sign")
-    manual = np.array([(sign.start_s, sign.end_s) for sign in signs]).reshape(-1, 2)
-    utterances = utterances_of(corpus, intervals, recording.name, signs)
-    before = np.array(
-        [i for i in range(len(signs) - 1) if utterances[i] and utterances[i] == utterances[i + 1]],
-        dtype=int,
-    )
-    filled = filled_recording(recording, settings["kinematics"]["longest_gap_s"])
-    orientations = filled.orientations
-    if orientations is not None and settings["transitions"]["geodesic_frame"] == "parent":
-        orientations = parent_relative(filled)
-    arms = {
-        hand: [filled.index(joint) for joint in arm_joints(filled.joints, hand)] for hand in HANDS
-    }
-    for cutoff in grid["cutoff_hz"]:
-        for hand, prominence, minima in _minima(filled, cutoff, settings):
+    grid, tolerance_s = settings.choices, settings.refinement.tolerance_s
+    joints = take.filled.joints
+    arms = {hand: [take.filled.index(j) for j in arm_joints(joints, hand)] for hand in HANDS}
+    for cutoff in grid.cutoff_hz:
+        for hand, prominence, minima in _minima(take.filled, cutoff, settings):
             random = chance_distances(
-                signs, minima, rate, grid["draws"],
-                seeds.stream(seed, corpus.name, recording.name, hand, "multiverse"),
+                take.signs, minima, take.filled.rate_hz, grid.draws,
+                seeds.stream(seed, corpus, take.name, hand, "multiverse"),
             )  # fmt: skip
-            for window in grid["window_s"]:
-                reach = window + settings["refinement"]["tolerance_s"]
-                refined, moved, _ = refine(
-                    manual, minima, window, settings["refinement"]["tolerance_s"]
-                )
+            for window in grid.search_window_s:
+                refined, moved, _ = refine(take.manual, minima, window, tolerance_s)
                 to = gathered[Setting(hand, cutoff, prominence, window)]
-                distance = np.abs(nearest(manual, minima) - manual)
-                to.near += int((distance <= reach).sum())
+                to.add_tags(take.manual, minima, random, window + tolerance_s)
                 to.moved += int(moved.sum())
-                to.tags += manual.size
-                hits = (random <= reach).sum(axis=1).astype(float)
-                to.chance = hits if to.chance is None else to.chance + hits
-                start, end = refined[before, 1], refined[before + 1, 0]
-                to.durations.append(np.round(end - start, 9))
-                was = manual[before + 1, 0] - manual[before, 1]
-                to.changes.append(np.round(np.abs(end - start - was), 6))
-                geodesic, euclidean = _distances(filled, orientations, start, end, arms[hand])
-                to.geodesic.append(geodesic)
-                to.euclidean.append(euclidean)
-                to.types += types
+                to.add_transitions(take, refined, arms[hand])
 
 
 def _minima(
-    filled: Recording, cutoff_hz: float, settings: Mapping[str, Any]
+    filled: Recording, cutoff_hz: float, settings: GridSettings
 ) -> Iterator[tuple[str, float, Floats]]:
     """Yield hand, prominence and minima (s) of a recording under one cut-off.
 
@@ -164,15 +200,15 @@ def _minima(
     anew: spacing goes before prominence.
     """
     rate = filled.rate_hz
-    method = {**settings["kinematics"]["lowpass"], "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
+    method = {**dict(settings.kinematics.lowpass), "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
     speeds = {
         hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate) for hand in HANDS
     }
     fastest = max(float(np.nanpercentile(s, 95)) for s in speeds.values())
-    spacing = settings["kinematics"]["minima"]["spacing_s"]
+    spacing = settings.kinematics.minima.spacing_s
     for hand, values in speeds.items():
         times, _, depths = minima_with_depth(values, rate, 0.0, spacing)
-        for prominence in settings["multiverse"]["prominence"]:
+        for prominence in settings.choices.prominence:
             yield hand, prominence, times[depths >= prominence * fastest]
 
 
@@ -194,7 +230,7 @@ def _distances(
 # --- rows ------------------------------------------------------------------------------------
 
 
-def _manual_rows(manual: pd.DataFrame, settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _manual_rows(manual: pd.DataFrame, settings: GridSettings) -> Iterator[dict[str, Any]]:
     counted = manual[manual["status"] != "overlap"]
     about = {"segmentation": "manual", "hand": "both"}
     yield from _duration_rows(
@@ -207,7 +243,7 @@ def _manual_rows(manual: pd.DataFrame, settings: Mapping[str, Any]) -> Iterator[
 
 
 def _refined_rows(
-    setting: Setting, found: Gathered, settings: Mapping[str, Any]
+    setting: Setting, found: Gathered, settings: GridSettings
 ) -> Iterator[dict[str, Any]]:
     about = {"segmentation": "refined", **vars(setting)}
     durations = np.concatenate(found.durations)
@@ -240,10 +276,10 @@ def _duration_rows(
     durations: Floats,
     distance: Floats,
     types: NDArray[np.str_],
-    settings: Mapping[str, Any],
+    settings: GridSettings,
 ) -> Iterator[dict[str, Any]]:
     """Yield N05 and N12, with outliers and, where there are any, without."""
-    out = outliers(durations, settings["transitions"]["outlier_iqr"])
+    out = outliers(durations, settings.transitions.outlier_iqr)
     for label, kept in (("kept", np.full(len(durations), True)), ("left out", ~out)):
         if label == "left out" and not out.any():
             continue

@@ -1,25 +1,28 @@
-"""What the report shows of Naert et al. 2017 for each corpus."""
+"""What the report shows of Naert et al. 2017: tables, figures and captions of one corpus."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.errors import listed
+from signkin.exhibits import Exhibit, exhibits
+from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.studies.naert2017.durations_report import duration_views
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.synthesis import report as synthesis_report
 from signkin.tables import read_table
 
 S3 = ".3f"
+View = TableView | FigureView
 
 
 @dataclass(frozen=True)
@@ -34,75 +37,85 @@ class Shown:
     corpora: Mapping[str, Corpus]
     settings: Settings
 
-    @property
+    @cached_property
     def constants(self) -> Mapping[str, str]:
         """Numbers that the paper prints in its text, as strings."""
         frame = pd.read_csv(self.paper / "constants.csv", dtype=str, keep_default_na=False)
         return dict(zip(frame["name"], frame["value"], strict=True))
+
+    @cached_property
+    def listing(self) -> tuple[Exhibit, ...]:
+        """What the paper shows."""
+        return exhibits(self.paper)
 
     def file(self, corpus: str, name: str) -> Path:
         """Return a file of a corpus."""
         return self.results / corpus / name
 
 
-def sections(shown: Shown, labels: Mapping[str, Any]) -> Iterator[Section]:
-    """Yield a section a corpus with tags, or with takes of one sign; labels: exhibits by id."""
+@dataclass(frozen=True)
+class Source:
+    """One corpus of these sections; folder: results/naert2017/<corpus>."""
+
+    corpus: Corpus
+    folder: Path
+    shown: Shown
+
+
+def sections(shown: Shown) -> Iterator[Section]:
+    """Yield a section a corpus with tags, or with takes of one sign."""
     for name, corpus in shown.corpora.items():
+        folder = shown.file(name, "")
         if corpus.tagged:
-            yield section(shown, name, labels)
-        elif part := synthesis_report.section(name, corpus, shown.file(name, ""), labels):
+            yield section(Source(corpus, folder, shown))
+        elif part := synthesis_report.section(corpus, folder, shown.listing):
             yield part
 
 
-def section(shown: Shown, name: str, labels: Mapping[str, Any]) -> Section:
+def section(source: Source) -> Section:
     """Return the section of one corpus with tags."""
-    corpus = shown.corpora[name]
-    captions = json.loads(shown.file(name, "captions.json").read_text(encoding="utf-8"))
-    captions |= synthesis_report.captions(shown.file(name, ""))
-    views: list[TableView | FigureView] = []
-    for identity, exhibit in labels.items():
-        if identity == "table1":
-            views.append(_table1(shown, name, exhibit))
-        elif identity == "table2":
-            views.append(_table2(shown, name, exhibit))
-        elif identity in captions:
-            base = shown.file(name, identity)
-            views.append(
-                FigureView(
-                    label=exhibit["label"],
-                    title=exhibit["title"],
-                    caption=captions[identity],
-                    svg=base.with_suffix(".svg"),
-                    files=figure_files(base),
-                    differs=exhibit["differs"],
-                )
-            )
-        if identity == "fig06":
-            views += _refinement(shown, name)
-        if identity == "fig11":
-            views += duration_views(
-                shown.file(name, ""), legacy(shown.settings), shown.constants, exhibit,
-                corpus.simulator is not None,
-            )  # fmt: skip
-    views += _left_out(shown, name)
-    views.append(_sign_types(shown, name))
-    views += synthesis_report.views(shown.file(name, ""), corpus.unit)
-    if corpus.simulator:
-        views += _simulation(shown, name)
+    corpus = source.corpus
     text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]
     text.append(f"Licence: {corpus.settings['licence']}. Source: {corpus.settings['citation']}.")
     return Section(
-        anchor=name,
-        title=name,
+        anchor=corpus.name,
+        title=corpus.name,
         text=[line for line in text if line],
         badge="simulated" if corpus.simulator else "real",
-        exhibits=views,
-        notices=_unused_glosses(shown, name),
+        exhibits=list(_views(source)),
+        notices=_unused_glosses(source),
     )
 
 
-def _unused_glosses(shown: Shown, name: str) -> list[str]:
-    frame = read_table(shown.file(name, "lexicon.csv"), "lexicon")
+def _views(source: Source) -> Iterator[View]:
+    """Yield the exhibits in the paper's order, each with what belongs to it, then the rest."""
+    captions = json.loads((source.folder / "captions.json").read_text(encoding="utf-8"))
+    captions |= synthesis_report.captions(source.folder)
+    for exhibit in source.shown.listing:
+        if exhibit.stem in _TABLES:
+            yield _TABLES[exhibit.stem](source, exhibit)
+        elif exhibit.stem in captions:
+            yield exhibit_view(exhibit, source.folder, captions[exhibit.stem])
+        if exhibit.stem == "fig06":
+            yield from _refinement(source)
+        if exhibit.stem == "fig11":
+            yield from _durations(source, exhibit)
+    yield from _left_out(source)
+    yield _sign_types(source)
+    yield from synthesis_report.views(source.folder, source.corpus.unit)
+    if source.corpus.simulator:
+        yield from _simulation(source)
+
+
+def _durations(source: Source, exhibit: Exhibit) -> Iterator[View]:
+    told = {"label": exhibit.label, "title": exhibit.title, "differs": exhibit.differs}
+    simulated = source.corpus.simulator is not None
+    chosen = DurationSettings.of(source.shown.settings)
+    yield from duration_views(source.folder, chosen, source.shown.constants, told, simulated)
+
+
+def _unused_glosses(source: Source) -> list[str]:
+    frame = read_table(source.folder / "lexicon.csv", "lexicon")
     unused = frame.loc[frame["occurrences"] == 0, "gloss"]
     if unused.empty:
         return []
@@ -112,8 +125,8 @@ def _unused_glosses(shown: Shown, name: str) -> list[str]:
     ]
 
 
-def _table1(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
-    path = shown.file(name, "table1.csv")
+def _table1(source: Source, exhibit: Exhibit) -> TableView:
+    path = source.folder / "table1.csv"
     frame = read_table(path, "table1")
     translated = int((frame["translation"] != "").sum())
     told = f"{translated} with a translation" if translated else "the corpus has no translations"
@@ -127,21 +140,21 @@ def _table1(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
         "translation": ("translation", ""),
     }
     return TableView(
-        label=exhibit["label"],
-        title=exhibit["title"],
+        label=exhibit.label,
+        title=exhibit.title,
         caption=f"{len(frame)} utterances, {int(frame['signs'].sum())} signs; {told}.",
         frame=frame,
         columns=columns,
         file=path,
-        differs=exhibit["differs"],
+        differs=exhibit.differs,
         most=8,
     )
 
 
-def _table2(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
-    path = shown.file(name, "table2.csv")
+def _table2(source: Source, exhibit: Exhibit) -> TableView:
+    path = source.folder / "table2.csv"
     frame = read_table(path, "table2")
-    simulated = shown.corpora[name].simulator is not None
+    simulated = source.corpus.simulator is not None
     rows = frame[frame["published_n"] != ""]
     caption = (
         f"Durations in s between manual tags, n = {int(frame['n'].iloc[-1])}, by four-digit type "
@@ -166,25 +179,30 @@ def _table2(shown: Shown, name: str, exhibit: Mapping[str, str]) -> TableView:
     if len(single):
         caption += " A single value has no SD; it is printed as 0, as in the paper."
     return TableView(
-        label=exhibit["label"],
-        title=exhibit["title"],
+        label=exhibit.label,
+        title=exhibit.title,
         caption=caption,
         frame=frame,
         columns=columns,
         file=path,
-        differs=exhibit["differs"],
+        differs=exhibit.differs,
         emphasis="equal" if simulated else "",
         most=40,
     )
 
 
-def _refinement(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
-    path = shown.file(name, "refinement.csv")
-    settings = shown.settings.refinement
+_TABLES: dict[str, Callable[[Source, Exhibit], TableView]] = {"table1": _table1, "table2": _table2}
+
+
+def _refinement(source: Source) -> Iterator[TableView | FigureView]:
+    path = source.folder / "refinement.csv"
+    settings = source.shown.settings.refinement
     columns = {
         "hand": ("hand", ""),
         "measure": ("measure", ""),
         "value": ("manual tags", S3),
+        "low": ("low", S3),
+        "high": ("high", S3),
         "unit": ("unit", ""),
         "chance": ("random tags", S3),
         "chance_low": ("2.5 %", S3),
@@ -197,12 +215,13 @@ def _refinement(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
         title="How the tags lie to the speed minima",
         caption=f"Window {settings.search_window_s:g} s. Chance: {settings.draws} sets of as many "
         "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
-        "the sets.",
+        "the sets. Low, high: 95 % interval of the value, tags taken as independent.",
         frame=read_table(path, "refinement"),
         columns=columns,
         file=path,
     )
-    base = shown.file(name, "fig_refinement")
+    yield _tag_chance(source)
+    base = source.folder / "fig_refinement"
     yield FigureView(
         label="",
         title="Tags and speed minima against chance",
@@ -214,8 +233,42 @@ def _refinement(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
     )
 
 
-def _left_out(shown: Shown, name: str) -> Iterator[TableView]:
-    path = shown.file(name, "transitions_left_out.csv")
+def _tag_chance(source: Source) -> TableView:
+    path = source.folder / "tag_chance.csv"
+    frame = read_table(path, "tag_chance")
+    window = source.shown.settings.refinement.search_window_s
+    told = frame["window_s"].isna() | ((frame["window_s"] - window).abs() < 1e-9)
+    return TableView(
+        label="",
+        title="Tags against nulls that keep their structure",
+        caption=f"Within stretches of signing, {source.shown.settings.refinement.draws} draws of "
+        "each null: all tags shifted in a circle, signs and gaps permuted, tags anywhere; and what "
+        f"minima without any order would give (Poisson). The share is that within {window:g} s, "
+        "the mean share that over windows from 0.02 to 0.2 s (every window is in the file). p: as "
+        "near or nearer by chance, one-sided; by Holm for both hands, both sets of tags and three "
+        "nulls. Transition: without the first and last tag of a stretch.",
+        frame=frame[told],
+        columns={
+            "hand": ("hand", ""),
+            "tags": ("tags", ""),
+            "null": ("null", ""),
+            "measure": ("measure", ""),
+            "value": ("manual tags", S3),
+            "chance": ("chance", S3),
+            "chance_low": ("2.5 %", S3),
+            "chance_high": ("97.5 %", S3),
+            "p": ("p", S3),
+            "p_holm": ("p (Holm)", S3),
+            "n": ("n", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+        most=12,
+    )
+
+
+def _left_out(source: Source) -> Iterator[TableView]:
+    path = source.folder / "transitions_left_out.csv"
     frame = read_table(path, "transitions")
     if frame.empty:
         return
@@ -246,8 +299,8 @@ def _left_out(shown: Shown, name: str) -> Iterator[TableView]:
     )
 
 
-def _sign_types(shown: Shown, name: str) -> TableView:
-    path = shown.file(name, "sign_types.csv")
+def _sign_types(source: Source) -> TableView:
+    path = source.folder / "sign_types.csv"
     frame = read_table(path, "sign_types")
     known = frame[frame["lexicon"] != ""]
     table = pd.crosstab(frame["lexicon"].replace("", "not in signs.csv"), frame["kinematic"])
@@ -272,8 +325,8 @@ def _sign_types(shown: Shown, name: str) -> TableView:
     )
 
 
-def _simulation(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
-    error_path = shown.file(name, "truth_error.csv")
+def _simulation(source: Source) -> Iterator[TableView | FigureView]:
+    error_path = source.folder / "truth_error.csv"
     yield TableView(
         label="",
         title="Error of the tags to the true boundaries",
@@ -291,17 +344,17 @@ def _simulation(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
         },
         file=error_path,
     )
-    path = shown.file(name, "surface.csv")
+    path = source.folder / "surface.csv"
     frame = read_table(path, "surface")
-    unit = shown.settings.transitions.euclidean_unit_m
+    unit = source.shown.settings.transitions.euclidean_unit_m
     yield TableView(
         label="",
         title="The duration surface found again (eq. 4)",
         caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
         f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
-        f"paper: {shown.constants['mean_error']} s). Designed: the same fit on the distances "
-        "that the simulation was made to have between the true boundaries; the tags stand off "
-        "these, which shifts the fit.",
+        f"paper: {source.shown.constants['mean_error']} s). Designed: the same fit on the "
+        "distances that the simulation was made to have between the true boundaries; the tags "
+        "stand off these, which shifts the fit.",
         frame=frame,
         columns={
             "coefficient": ("coefficient", ""),
@@ -314,7 +367,7 @@ def _simulation(shown: Shown, name: str) -> Iterator[TableView | FigureView]:
         },
         file=path,
     )
-    base = shown.file(name, "fig_simulation")
+    base = source.folder / "fig_simulation"
     yield FigureView(
         label="",
         title="Truth found again",

@@ -8,6 +8,7 @@ import pandas as pd
 from signkin import seeds, tables
 from signkin.coarticulation.duration import TERMS, SurfaceDuration, Transitions
 from signkin.coarticulation.segmentation import truth_errors, truth_summary
+from signkin.studies.naert2017.transitions import counted
 
 
 def truth_error(
@@ -31,12 +32,7 @@ def surface(
 
     constants: papers/naert2017/constants.csv, all text.
     """
-    manual = transitions[
-        (transitions["segmentation"] == "manual")
-        & (transitions["hand"] == "both")
-        & (transitions["status"] != "overlap")
-    ]
-    found = _fit(manual, euclidean_unit_m)
+    found = _fit(counted(transitions), euclidean_unit_m)
     designed = _fit(design, euclidean_unit_m)
     printed = constants.set_index("name")["value"]
     interval = found.interval()

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -17,14 +16,15 @@ from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import stretches
 from signkin.recording import Recording
 from signkin.stages.ingest import lead
+from signkin.studies.naert2017.settings import SynthesisSettings
 
 FOUND = "between rest parts, by the wrists"
 
 
 def found_signs(
-    corpus: Corpus, takes: Sequence[Recording], settings: Mapping[str, Any]
+    corpus: Corpus, takes: Sequence[Recording], settings: SynthesisSettings
 ) -> pd.DataFrame:
-    """Return the table `found_signs`; settings: config.yaml (kinematics, synthesis).
+    """Return the table `found_signs`.
 
     corpus.yaml (`synthesis.signs`) says which takes hold one sign each, with its gloss and, where
     motion is not to be asked, its interval.
@@ -61,21 +61,21 @@ def found_signs(
     return pd.DataFrame(rows, columns=tables.TABLES["found_signs"].names())
 
 
-def between_rests(take: Recording, settings: Mapping[str, Any]) -> tuple[float, float]:
+def between_rests(take: Recording, settings: SynthesisSettings) -> tuple[float, float]:
     """Return start and end (s) of the sign of a take: one sign between two rest parts.
 
     The take's longest stretch with a hand raised that neither begins nor ends it; within it, from
     where the raising has come to its end to where the lowering begins.
     """
-    rules, rate = settings["synthesis"], take.rate_hz
+    rules, rate = settings.synthesis, take.rate_hz
     paths = {
-        hand: lowpass(take.track(f"{hand}_wrist"), rate, **settings["kinematics"]["lowpass"])
+        hand: lowpass(take.track(f"{hand}_wrist"), rate, **dict(settings.kinematics.lowpass))
         for hand in HANDS
     }
     heights = np.stack([paths[hand][:, 2] for hand in HANDS])
     height = np.nanmax(heights, axis=0)
     low, high = np.nanmin(height), np.nanmax(height)
-    raised = height > low + rules["found_raised"] * (high - low)
+    raised = height > low + rules.found_raised * (high - low)
     runs = [(a, b) for a, b in stretches(raised) if a > 0 and b < take.frames]
     if not runs:
         raise SignkinError(
@@ -88,8 +88,8 @@ def between_rests(take: Recording, settings: Mapping[str, Any]) -> tuple[float, 
     busier = max(HANDS, key=lambda hand: float(np.nanmean(paths[hand][first:end, 2])))
     moving = speed(paths[busier], rate)
     return (
-        _settled(moving, first, 1, rules["found_still"]) / rate,
-        _settled(moving, end - 1, -1, rules["found_still"]) / rate,
+        _settled(moving, first, 1, rules.found_still) / rate,
+        _settled(moving, end - 1, -1, rules.found_still) / rate,
     )
 
 

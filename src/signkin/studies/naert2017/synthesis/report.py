@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from signkin.corpus import Corpus
+from signkin.exhibits import Exhibit
+from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Section, TableView
 from signkin.tables import read_table
 
@@ -41,22 +42,15 @@ def views(folder: Path, unit: str) -> Iterator[View]:
             yield _utterances(frame, path, folder / "synthesis" / "utterances", unit)
 
 
-def section(name: str, corpus: Corpus, folder: Path, labels: Mapping[str, Any]) -> Section | None:
+def section(corpus: Corpus, folder: Path, listing: Iterable[Exhibit]) -> Section | None:
     """Return the section of a corpus without tags, None where nothing was synthesised."""
     told = captions(folder)
     if not told:
         return None
     exhibits: list[View] = [
-        FigureView(
-            label=exhibit["label"],
-            title=exhibit["title"],
-            caption=told[identity],
-            svg=folder / f"{identity}.svg",
-            files=[folder / f"{identity}{s}" for s in (".svg", ".pdf", ".csv")],
-            differs=exhibit["differs"],
-        )
-        for identity, exhibit in labels.items()
-        if identity in told
+        exhibit_view(exhibit, folder, told[exhibit.stem])
+        for exhibit in listing
+        if exhibit.stem in told
     ]
     path = folder / "synthesis" / "found_signs.csv"
     found = read_table(path, "found_signs")
@@ -80,8 +74,8 @@ def section(name: str, corpus: Corpus, folder: Path, labels: Mapping[str, Any]) 
     )
     exhibits += views(folder, corpus.unit)
     return Section(
-        anchor=f"{name}-synthesis",
-        title=f"{name}: synthesis",
+        anchor=f"{corpus.name}-synthesis",
+        title=f"{corpus.name}: synthesis",
         text=[str(corpus.settings["title"]) + ".", "The corpus has no tags: nothing is compared "
               "with captured transitions."],
         badge="simulated" if corpus.simulator else "real",

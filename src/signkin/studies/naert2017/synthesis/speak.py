@@ -5,16 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from signkin.errors import SignkinError, listed
-from signkin.settings.legacy import legacy
 from signkin.stages.plan import Plan, make_plan
-from signkin.studies.naert2017.synthesis.utterance import (
-    load_database,
-    printed_theta,
-    utterance_files,
-)
+from signkin.studies.naert2017.settings import SynthesisSettings
+from signkin.studies.naert2017.synthesis.database import load_database
+from signkin.studies.naert2017.synthesis.duration_models import printed_theta
+from signkin.studies.naert2017.synthesis.utterance_files import utterance_files
 from signkin.yaml_file import read_yaml
 
 RESULTS = Path("results")
@@ -42,7 +39,7 @@ def name_of(glosses: Sequence[str]) -> str:
 
 def prerequisites(corpus: str, changes: Mapping[str, str], root: Path) -> list[str]:
     """Return the files of the workflow that an utterance wants."""
-    plan = _plan(corpus, changes, root)[0]
+    plan = _plan(corpus, changes, root)
     files = [f"results/{corpus}/recordings/{shard}.parquet" for shard in plan.shards(corpus)]
     return [*files, f"results/{corpus}/intervals.csv", f"results/{corpus}/excluded.csv"]
 
@@ -55,9 +52,10 @@ def speak(
     root: Path,
 ) -> list[str]:
     """Make and write an utterance in results/naert2017/<corpus>/synthesis; returns what to tell."""
-    plan, config = _plan(corpus, changes, root)
+    plan = _plan(corpus, changes, root)
+    settings = SynthesisSettings.of(plan.settings)
     files = prerequisites(corpus, changes, root)
-    base, _ = load_database(plan.corpora[corpus], files[:-2], files[-2], files[-1], config)
+    base, _ = load_database(plan.corpora[corpus], files[:-2], files[-2], files[-1], settings)
     name = name or name_of(glosses)
     out = RESULTS / "naert2017" / corpus / "synthesis"
     parts = utterance_files(
@@ -65,7 +63,7 @@ def speak(
         plan.folders[corpus],
         base,
         {name: glosses},
-        config,
+        settings,
         printed_theta(plan.papers / "naert2017" / "constants.csv"),
         out,
     )
@@ -82,8 +80,8 @@ def speak(
     return told
 
 
-def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> tuple[Plan, dict[str, Any]]:
-    """Return the plan and the settings of the folder the command is called in."""
+def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> Plan:
+    """Return the plan of the folder the command is called in."""
     path = Path("config.yaml")
     config = read_yaml(path if path.is_file() else root / "config.yaml")
     config["synthesis"] = {**(config.get("synthesis") or {}), **changes}
@@ -95,4 +93,4 @@ def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> tuple[Plan, di
             place="CORPUS",
             expected=listed(sorted(plan.corpora)),
         )
-    return plan, legacy(plan.settings)
+    return plan

@@ -1,0 +1,161 @@
+"""C3D files (.c3d) of optical motion capture, read by the library c3d (optional: `signkin[c3d]`).
+
+Points with a residual below 0, and points at 0, 0, 0, are gaps: makers mark occlusion in both
+ways. The unit is the file's. Analog channels are left alone, and so are points that the file lists
+as angles, forces, moments or powers. The reference library in C++, ezc3d, reads the same values
+(tests/oracle), but ends the whole process on some broken files, which a corpus may hold.
+"""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from signkin.errors import SignkinError, listed
+from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
+from signkin.io.registry import SourceMotion, motion_reader
+from signkin.io.text import content_of, encoding_of
+
+_NO_POSITIONS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
+
+
+@motion_reader("c3d", suffixes=(".c3d",))
+def read_c3d(
+    path: Path,
+    *,
+    joints: Mapping[str, str] | None = None,
+    part: str | None = None,
+    incomplete: bool = False,
+    encoding: str = "utf-8",
+) -> SourceMotion:
+    """Read the points of a C3D file: labels by name, of the subject `part` where there are several.
+
+    incomplete: read a file of fewer frames than its header promises. encoding: of the labels.
+    """
+    try:
+        import c3d
+    except ImportError:
+        raise SignkinError(
+            "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
+        ) from None
+    content = content_of(path)
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            reader = c3d.Reader(io.BytesIO(content))
+            labels, about = _about(reader, encoding_of(b"", encoding))
+            _check_size(reader, len(content), incomplete)
+            frames = [points for _, points, _ in reader.read_frames()]
+            first = int(reader.first_frame)
+            promised = _promised(reader)
+    except SignkinError:
+        raise
+    except Exception as error:  # the library lets struct, index and assertion errors through
+        raise SignkinError(
+            f"not readable as a C3D file ({type(error).__name__}: {error})",
+            place=f"{len(content)} bytes",
+            expected="a whole file; this one may be damaged",
+        ) from error
+    if not frames or not labels:
+        raise SignkinError("no points in the file", expected="points, over 2 frames or more")
+    notes: list[str] = []
+    if len(frames) < promised:
+        notes.append(few_frames(len(frames), promised, incomplete))
+    names, chosen = pick_markers(labels, joints, part)
+    others = [labels[i] for i in chosen if labels[i] in about.no_positions]
+    if joints is not None and others:
+        raise SignkinError(
+            f"{listed(others)} is no position",
+            place="joints",
+            expected="a marker; the file lists this under angles, forces, moments or powers",
+        )
+    if others:
+        kept = [k for k, i in enumerate(chosen) if labels[i] not in about.no_positions]
+        names, chosen = tuple(names[k] for k in kept), [chosen[k] for k in kept]
+        notes.append(f"{len(others)} points that are angles, forces or the like are left out")
+    points = np.array(frames, dtype=float)[:, chosen]
+    positions = np.ascontiguousarray(points[..., :3])
+    positions[points[..., 3] < 0] = np.nan
+    notes += zeros_to_gaps(positions)
+    if first > 1:
+        notes.append(f"the first frame is number {first}; times count from there")
+    return SourceMotion(
+        rate_hz=about.rate_hz,
+        joints=names,
+        positions=positions,
+        unit=about.unit,
+        clock_place="POINT:RATE",
+        notes=tuple(notes),
+    )
+
+
+class _About:
+    """Rate and unit of the points, and the labels that are no positions."""
+
+    def __init__(self, reader: Any, encoding: str) -> None:
+        rate = float(reader.point_rate)
+        self.rate_hz = float(str(np.float32(rate)))
+        units = _strings(reader, "POINT.UNITS", encoding)
+        self.unit = unit_of(units[0][:4]) if units else None
+        self.no_positions = {
+            label
+            for key in _NO_POSITIONS
+            for label in _strings(reader, f"POINT.{key}", encoding)
+            if label
+        }
+
+
+def _about(reader: Any, encoding: str) -> tuple[list[str], _About]:
+    labels = _strings(reader, "POINT.LABELS", encoding)
+    more = 2
+    while _strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
+        labels += _strings(reader, f"POINT.LABELS{more}", encoding)
+        more += 1
+    used = int(reader.point_used)
+    labels = [*labels, *(f"*{i}" for i in range(len(labels), used))][:used]
+    return labels, _About(reader, encoding)
+
+
+def _strings(reader: Any, key: str, encoding: str) -> list[str]:
+    parameter = reader.get(key)
+    if parameter is None or not len(parameter.bytes):
+        return []
+    content = bytes(parameter.bytes)
+    sizes = [int(size) for size in parameter.dimensions]
+    width = sizes[0] if len(sizes) > 1 else len(content)
+    try:
+        return [
+            content[at : at + width].decode(encoding).strip(" \0")
+            for at in range(0, len(content), max(width, 1))
+        ]
+    except UnicodeDecodeError as error:
+        raise SignkinError(
+            f"the labels are not {encoding.upper()}",
+            place=key.replace(".", ":"),
+            expected="text in UTF-8",
+            todo="Declare what they are written in, e.g. options: {encoding: latin-1}.",
+        ) from error
+
+
+def _promised(reader: Any) -> int:
+    """Return the number of frames that POINT:FRAMES promises, or else the header."""
+    parameter = reader.get("POINT.FRAMES")
+    frames = int(parameter.uint16_value) if parameter and len(parameter.bytes) == 2 else 0
+    if 0 < frames < 65535:
+        return frames
+    return int(reader.last_frame) - int(reader.first_frame) + 1
+
+
+def _check_size(reader: Any, size: int, incomplete: bool) -> None:
+    """Refuse a header that promises more than the file holds, before anything is read."""
+    a_frame = int(reader.point_used) * 4 * (4 if float(reader.point_scale) < 0 else 2)
+    promised = _promised(reader)
+    if a_frame <= 0:
+        raise SignkinError("no points in the file", expected="points, over 2 frames or more")
+    if a_frame * promised > size and not incomplete:
+        few_frames(size // a_frame, promised, incomplete)

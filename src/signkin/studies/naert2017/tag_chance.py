@@ -1,0 +1,75 @@
+"""Tags and speed minima, against nulls that keep the structure (Naert et al. 2017, 4.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+
+from signkin import seeds, tables
+from signkin.corpus import Corpus
+from signkin.errors import SignkinError
+from signkin.joints import HANDS
+from signkin.settings.sections import Refinement
+from signkin.statistics import nulls
+from signkin.statistics.multiplicity import holm_of
+from signkin.studies.naert2017.tagged import intervals_of
+
+ALL, TRANSITION = "all", "transition"
+
+
+def tag_chance(
+    corpus: Corpus,
+    about: pd.DataFrame,
+    intervals: pd.DataFrame,
+    minima: pd.DataFrame,
+    names: Iterable[str],
+    settings: Refinement,
+    seed: int,
+) -> pd.DataFrame:
+    """Return the table `tag_chance`: manual tags of a corpus against each null, by hand.
+
+    about: the table `recordings`. names: of the recordings with tags, in their order.
+    """
+    rates = about.set_index("recording")["rate_hz"]
+    windows = sorted({*nulls.WINDOWS_S, settings.search_window_s})
+    signed = list(names)
+    parts = []
+    for hand in HANDS:
+        found: list[nulls.Stretch] = []
+        for name in signed:
+            signs = [(s.start_s, s.end_s) for s in intervals_of(intervals, name, "sign")]
+            chosen = (minima["recording"] == name) & (minima["hand"] == hand)
+            found += nulls.stretches(
+                np.array(signs).reshape(-1, 2),
+                minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                float(rates[name]),
+                margin_s=windows[-1],
+            )
+        for tags in (ALL, TRANSITION):
+            rng = seeds.stream(seed, corpus.name, hand, tags, "tag_chance")
+            parts.append(_rows(found, tags, windows, settings.draws, rng).assign(hand=hand))
+    out = pd.concat(parts, ignore_index=True).assign(corpus=corpus.name)
+    one = (out["measure"] == nulls.MEAN_SHARE) & out["p"].notna()
+    out.loc[one, "p_holm"] = holm_of(out.loc[one, "p"].to_numpy(dtype=float))
+    return out.reindex(columns=tables.TABLES["tag_chance"].names())
+
+
+def _rows(
+    found: list[nulls.Stretch],
+    tags: str,
+    windows: list[float],
+    draws: int,
+    rng: np.random.Generator,
+) -> pd.DataFrame:
+    only = tags == TRANSITION
+    try:
+        rows = nulls.against_nulls(found, draws, rng, windows, transitions_only=only)
+    except SignkinError as error:
+        return pd.DataFrame([{"tags": tags, "n": 0, "note": f"not testable: {error.found}"}])
+    note = "" if any(len(part.minima_s) for part in found) else "this hand has no speed minimum"
+    # Infinitely far: a hand that has no minimum near half of the tags.
+    numbers = ["value", "chance", "chance_low", "chance_high"]
+    rows[numbers] = rows[numbers].replace(np.inf, np.nan)
+    return rows.assign(tags=tags, note=note)
