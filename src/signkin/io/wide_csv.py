@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from signkin.clock import SECONDS_PER, clock_of
 from signkin.errors import SignkinError, listed
