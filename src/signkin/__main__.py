@@ -19,6 +19,12 @@ from signkin.survey.commands import add_parser, run_corpus
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns the exit status."""
+    words = sys.argv[1:] if arguments is None else arguments
+    if words[:1] == ["audit"]:
+        from signkin.audit import commands as audit
+        from signkin.pages.audit_paper import audit_papers
+
+        return audit.main(words[1:], audit_papers)
     parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("run", help="run the workflow; further arguments go to snakemake")
@@ -29,19 +35,13 @@ def main(arguments: list[str] | None = None) -> int:
     speak.add_argument("--name", help="of the files; by default made from the glosses")
     for key in ("method", "duration", "retrieval"):
         speak.add_argument(f"--{key}", help=f"instead of synthesis.{key} in config.yaml")
-    ledger = commands.add_parser("audit", help="check the claims of a paper's folder")
-    ledger.add_argument("papers", nargs="+", type=Path, help="folders with claims.yaml and tables")
-    ledger.add_argument("--out", type=Path, help="write the verdicts to this CSV file")
-    ledger.add_argument("--checks", type=Path, help="write every check's findings to this one")
-    ledger.add_argument("--results", type=Path, help="test on the corpora of this folder, too")
+    commands.add_parser("audit", help="check the claims of a paper; `audit list`, `check`, `init`")
     add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
     if for_snakemake:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
-    if told.command == "audit":
-        return run_audit(told.papers, told.out, told.checks, told.results)
     return run_corpus(told) if told.command == "corpus" else say(told)
 
 
@@ -63,29 +63,6 @@ def say(told: argparse.Namespace) -> int:
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
         return 1
-    return 0
-
-
-def run_audit(
-    papers: list[Path], out: Path | None, checks: Path | None, results: Path | None
-) -> int:
-    """Print the verdicts of claims; returns 1 where the input cannot be used, else 0."""
-    from signkin.errors import SignkinError
-    from signkin.pages.ledger import run_ledger, told
-    from signkin.tables import write_table
-
-    try:
-        ledger = run_ledger(papers, results)
-        for frame, name, path in (
-            (ledger.claims, "claims", out),
-            (ledger.checks, "checks", checks),
-        ):
-            if path is not None:
-                write_table(frame, path, name)
-    except SignkinError as error:
-        print(f"signkin: {error}", file=sys.stderr)
-        return 1
-    print(told(ledger))
     return 0
 
 

@@ -7,6 +7,7 @@ are scalar-last. NaN is a gap; nothing here fills it.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -49,7 +50,7 @@ class Recording:
             raise self._error("rate", f"the rate is {self.rate_hz:g} Hz", "a rate above 0 Hz")
         if self.unit not in UNITS:
             raise self._error("unit", f"the unit is {self.unit!r}", listed(UNITS))
-        doubled = sorted({j for j in self.joints if self.joints.count(j) > 1})
+        doubled = sorted(joint for joint, count in Counter(self.joints).items() if count > 1)
         if doubled:
             raise self._error("joints", f"{listed(doubled)} occurs twice", "each joint once")
         expected = f"(frames, {len(self.joints)}, 3)"

@@ -92,8 +92,9 @@ def write_trc(path: Path, x: np.ndarray) -> None:
 
 def write_c3d(path: Path, x: np.ndarray) -> None:
     """Points in millimetres, written by the library c3d."""
-    import c3d
+    import pytest
 
+    c3d = pytest.importorskip("c3d", reason="the optional library c3d is not there")
     writer = c3d.Writer(point_rate=RATE_HZ, point_units="mm ", point_scale=-1.0)
     extra = np.zeros((len(x), len(JOINTS), 2))
     frames = np.concatenate([x * 1000, extra], axis=2).astype(np.float32)

@@ -42,6 +42,10 @@ def results() -> dict[str, np.ndarray]:
     out = {}
     for name, case in CASES.items():
         out |= _of_a_fit(name, *case)
+    for size in (1e4, 1e9):  # residuals on a line, and more digits than sixteen
+        x = walk(10, 3, 1) + size * np.linspace(-1, 1, 10)[:, None]
+        found = fit(x, (0, 2), PRIOR)
+        out |= {f"a stroke of {size:g}: {field}": getattr(found, field) for field in FIELDS}
     every, fitting.EVERY_COUNT_UP_TO = fitting.EVERY_COUNT_UP_TO, 0
     try:
         out |= _of_a_fit("band", *BAND)

@@ -47,12 +47,14 @@ def test_half_even_leaves_ties_to_even_digits():
     assert Fraction(25, 100) in allowed("0.2", "half_even")
 
 
+@settings(deadline=None)
 @given(st.fractions(-5, 5), st.integers(0, 6), st.sampled_from(["nearest", "half_up"]))
 def test_a_print_allows_what_was_printed(value, places, rounding):
     text = decimals.fixed(abs(value), places)
     assert abs(value) in allowed(text, rounding)
 
 
+@settings(deadline=None)
 @given(st.fractions(-3, 3), st.fractions(-3, 3), st.fractions(0, 1), st.fractions(0, 1),
        st.floats(0, 1), st.floats(0, 1))  # fmt: skip
 def test_interval_arithmetic_holds_every_result(a, b, wa, wb, ta, tb):
@@ -70,6 +72,7 @@ def test_interval_arithmetic_holds_every_result(a, b, wa, wb, ta, tb):
 # --- GRIM and GRIMMER
 
 
+@settings(deadline=None)
 @given(FRAMES, PLACES)
 def test_a_table_computed_from_a_sample_passes(frames, places):
     mean, sd = printed(frames, places)
@@ -81,6 +84,7 @@ def test_a_table_computed_from_a_sample_passes(frames, places):
         assert (sum(frames), sum(f * f for f in frames)) in found.pairs["n-1"]
 
 
+@settings(deadline=None)
 @given(FRAMES, st.integers(1, 99))
 def test_a_mean_moved_off_the_grain_fails(frames, part):
     n = len(frames)
@@ -90,7 +94,7 @@ def test_a_mean_moved_off_the_grain_fails(frames, part):
     assert audit.grimmer(mean, "0.1", n, "0.01").verdict == "inconsistent"
 
 
-@settings(max_examples=50)
+@settings(max_examples=50, deadline=None)
 @given(FRAMES)
 def test_an_sd_that_no_sample_has_fails(frames):
     mean, _ = printed(frames, 8)
@@ -102,7 +106,7 @@ def test_an_sd_that_no_sample_has_fails(frames):
     assert audit.grimmer(mean, sd, n, "0.01", divisor="n-1").verdict == "inconsistent"
 
 
-@settings(max_examples=30)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(st.integers(10, 50), min_size=3, max_size=7))
 def test_samples_print_as_the_row(frames):
     mean, sd = printed(frames, 6)
@@ -138,7 +142,7 @@ GROUPS = st.lists(
 )  # fmt: skip
 
 
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 @given(GROUPS, st.integers(3, 6))
 def test_what_rounding_allows_holds_what_the_data_give(data, places):
     rows = [(len(v), *printed(v, places)) for v in data]
@@ -157,6 +161,7 @@ def test_what_rounding_allows_holds_what_the_data_give(data, places):
     assert Fraction(sum(sum(v) for v in data), 100 * len(everything)) in mean
 
 
+@settings(deadline=None)
 @given(st.lists(st.sampled_from("abc"), min_size=2, max_size=30), st.integers(0, 4))
 def test_chains_never_outnumber_those_there_were(signs, cuts):
     bounds = sorted({0, len(signs), *[(i + 1) * len(signs) // (cuts + 1) for i in range(cuts)]})

@@ -197,6 +197,19 @@ def test_an_uneven_clock_is_resampled_where_that_is_declared(tmp_path):
     assert np.abs(track - np.sin(5 * recording.times_s))[~lost].max() < 2e-3
 
 
+def test_an_undeclared_clock_that_contradicts_the_rate_is_seen(tmp_path):
+    spec = {"joints": WRISTS, "unit": "m"}
+    for name, factor, form in (("time", 1, "{:.2f}"), ("Timestamp", 1000, "{:.0f}")):
+        times = np.arange(50) / 50 * factor
+        path = table(tmp_path, f"{name},{HEADER}", *(f"{form.format(t)},{ROW}" for t in times))
+        told(path, r"the file says 50 Hz, the declaration 100 Hz", rate_hz=100, **spec)
+        assert read_recording(path, rate_hz=50, **spec).rate_hz == 50
+        told(path, r"the rate is missing.*declare it", **spec)
+    # What tells nothing of a rate is left alone.
+    path = table(tmp_path, f"time,{HEADER}", *(f"{t},{ROW}" for t in (0, 7, 8, 9)))
+    assert read_recording(path, rate_hz=100, **spec).rate_hz == 100
+
+
 @pytest.mark.parametrize("name", ["bvh", "csv", "trc", "c3d", "qualisys_tsv", "vicon_csv", "pose",
                                   "motive_csv", "mediapipe_csv"])  # fmt: skip
 def test_a_rate_that_contradicts_the_file_is_refused_or_overruled(tmp_path, name):
@@ -570,13 +583,12 @@ def test_an_array_that_promises_more_than_it_holds(tmp_path):
 @pytest.mark.parametrize("name", SAMPLES)
 def test_a_file_of_something_else_is_one_sentence(tmp_path, name):
     made = SAMPLES[name]
-    if made.format == "c3d":
-        pytest.importorskip("c3d", reason="the optional library c3d is not there")
     path = tmp_path / made.name
     contents = (
         b"", b"\0" * 100_000, b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 40, b"x" * 99_999,
         b"PK\x03\x04" + b"\0" * 60, "a,b\n1,2\n".encode("utf-16"),
     )  # fmt: skip
+    made.write(tmp_path / "whole", motion())  # skips where its library is not there
     for content in contents:
         path.write_bytes(content)
         told(path, str(path), format=made.format, **made.spec)
@@ -584,3 +596,28 @@ def test_a_file_of_something_else_is_one_sentence(tmp_path, name):
     told(path, "there is no such file", format=made.format, **made.spec)
     path.mkdir()
     told(path, "folder", format=made.format, **made.spec)
+
+
+def test_one_marker_under_two_names_is_one_joint(tmp_path):
+    path, spec = sample("c3d", tmp_path)
+    joints = {"right_wrist": "Anna:right_wrist", "left_wrist": "right_wrist"}
+    told(path, "'Anna:right_wrist' stands twice, for right_wrist and left_wrist",
+         **{**spec, "joints": joints})  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [{"up": 5}, {"right": None}, {"format": ["bvh"]}, {"joints": {"right_wrist": ["a"]}},
+     {"unit": object()}, {"encoding": 5}, {"part": 3.5}, {"rate_hz": [50]}, {"clock": 5}],
+)  # fmt: skip
+def test_declarations_of_another_kind_are_told_too(tmp_path, spec):
+    path, good = sample("bvh", tmp_path)
+    good["part"] = "1"
+    told(path, str(path), **{**good, **spec})
+
+
+def test_a_bvh_of_very_many_joints_is_refused_at_once(tmp_path):
+    path = tmp_path / "m.bvh"
+    joints = "".join(f"JOINT j{i} {{ OFFSET 0 0 0\n" for i in range(100_000))
+    path.write_text("HIERARCHY\nROOT r { OFFSET 0 0 0 CHANNELS 0\n" + joints + "}" * 100_001)
+    told(path, "more than 5000 joints", unit="m")

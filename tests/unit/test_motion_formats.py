@@ -22,8 +22,6 @@ def expected(sample, joint):
 
 
 def written(sample, folder, spec=None):
-    if sample.format == "c3d":
-        pytest.importorskip("c3d", reason="the optional library c3d is not there")
     path = folder / sample.name
     sample.write(path, X)
     return read_recording(path, format=sample.format, **(spec or sample.spec))

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from signkin import tables
 from signkin.coarticulation.sign_speeds import continuous, sign_speeds, step_angles
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.statistics import anova, association, equivalence, mixed, posthoc
 from signkin.statistics.effects import cohens_d, share_interval
 from signkin.statistics.findings import Finding, Kind, grouped
@@ -21,6 +20,7 @@ from signkin.studies.naert2017 import (
     durations_statistics,
     durations_surface,
 )
+from signkin.studies.naert2017.settings import DurationSettings
 
 NAN = float("nan")
 
@@ -154,9 +154,7 @@ def test_speeds_of_signs_that_move_and_turn_steadily():
 
 @pytest.fixture(scope="module")
 def config():
-    content = legacy(Settings())
-    content["durations"]["draws"] = 100
-    return content
+    return DurationSettings.of(Settings(durations={"draws": 100}))
 
 
 def corpus(n=40, recordings=2, seed=3, **changes):

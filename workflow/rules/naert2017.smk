@@ -1,6 +1,7 @@
 # Naert, Larboulette & Gibet 2017: refinement, transitions, tables and figures.
 from signkin.exhibits import exhibits, files, of_groups
 from signkin.studies.naert2017.settings import (
+    DurationSettings,
     FigureSettings,
     GridSettings,
     SynthesisSettings,
@@ -293,7 +294,7 @@ rule duration_statistics:
         code=PLAN.digest("naert2017/duration_statistics.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_statistics.py"
 
@@ -316,7 +317,7 @@ rule duration_models:
         code=PLAN.digest("naert2017/duration_models.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
         seed=SETTINGS.seed,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_models.py"
 
@@ -335,7 +336,7 @@ rule duration_surface:
     params:
         code=PLAN.digest("naert2017/duration_surface.py"),
         unit=lambda w: PLAN.corpora[w.corpus].unit,
-        settings={k: config[k] for k in ("transitions", "durations")},
+        settings=DurationSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/duration_surface.py"
 

@@ -4,16 +4,12 @@ Numbers are strings as printed. This package knows tables only, no recordings an
 """
 
 from signkin.audit.grim import grim
-from signkin.audit.grimmer import grimmer, samples
+from signkin.audit.grimmer import grimmer
+from signkin.audit.kruskal import kruskal_limit
+from signkin.audit.pvalues import p_agrees, p_from, statistic_from
 from signkin.audit.rounding import allowed
-from signkin.audit.significance import (
-    kruskal_limit,
-    p_agrees,
-    p_from,
-    power_of,
-    smallest_effect,
-    statistic_from,
-)
+from signkin.audit.samples import samples
+from signkin.audit.significance import power_of, smallest_effect
 from signkin.audit.summaries import (
     anova_from_summary,
     chains,

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from signkin import seeds
+from signkin.audit.checks.groups import ordered_pairs
 from signkin.audit.expressions import evaluate
 from signkin.audit.findings import FAILS, HOLDS, UNDECIDABLE, Finding
-from signkin.audit.published import ordered_pairs
 from signkin.audit.registry import Missing, OnCorpus, on_corpus
 from signkin.audit.rounding import allowed, shown
 from signkin.errors import SignkinError, listed

@@ -1,42 +1,54 @@
-"""GRIMMER by exact enumeration: can n values on a grain have the printed mean and SD?
+"""GRIMMER by exact search: can n values on a grain have the printed mean and SD?
 
 In whole grains a sample has a whole sum and a whole sum of squares, of the same parity. Every
-pair that the print allows is tried for n whole numbers that have it, instead of the shortcuts
-of the published tests, one of which accuses wrongly.
+pair that the print allows is tried for n whole numbers that have it (`whole`), instead of the
+shortcuts of the published tests, one of which accuses wrongly. With the bounds of a scale no SD
+is above sqrt((high - mean)(mean - low) n / (n - 1)); for 0 and 1 that is DEBIT.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import lru_cache
-from math import ceil, floor, isqrt
+from math import ceil, floor
 
-import numpy as np
-
-from signkin import seeds
 from signkin.audit.findings import CONSISTENT, INCONSISTENT, UNDECIDABLE, Finding
 from signkin.audit.grim import grain_of, grim
-from signkin.audit.rounding import Interval, allowed, count, exactly, shown
+from signkin.audit.rounding import Interval, allowed, count, exactly, ratio, shown
+from signkin.audit.whole import Pair, Span, Steps, TooLong, pairs_allowed, possible
 from signkin.errors import SignkinError, listed
 
 DIVISORS = ("n-1", "n")
-MOST_STEPS = 200_000  # of a search for whole numbers; beyond it the answer is `undecidable`
-MOST_PAIRS = 20_000
-MOST_DEEP = 100  # numbers searched for one by one
-Pair = tuple[int, int]
+SPREADS = ("sd", "se")  # what is printed beside the mean: an SD, or a standard error
+MOST_PAIRS = 2_000
 
 
 @dataclass(frozen=True)
 class Grimmer(Finding):
-    """A finding with the pairs (sum, sum of squares), in grains, for each divisor of the SD."""
+    """A finding with the pairs (sum, sum of squares), in grains, for each divisor of the SD.
+
+    complete: whether these are all pairs; else there are more than were listed.
+    """
 
     pairs: Mapping[str, tuple[Pair, ...]] = field(default_factory=dict)
+    complete: bool = True
 
 
-class _Undecided(Exception):
-    """The search took too long."""
+@dataclass(frozen=True)
+class _Tried:
+    pairs: tuple[Pair, ...]
+    open: bool  # a search was too long, or more pairs may be there
+    why: str = ""
+
+
+def times_of(n: int, divisor: str, spread: str = "sd") -> int:
+    """Return what the square of a printed SD (or standard error) times is the sum of squares."""
+    if divisor not in DIVISORS:
+        raise SignkinError(f"the divisor {divisor!r}", expected=listed(DIVISORS))
+    if spread not in SPREADS:
+        raise SignkinError(f"the spread {spread!r}", expected=listed(SPREADS))
+    return (n - 1 if divisor == "n-1" else n) * (n if spread == "se" else 1)
 
 
 def grimmer(
@@ -46,54 +58,123 @@ def grimmer(
     grain: str = "1",
     divisor: str = "either",
     rounding: str = "nearest",
+    items: int | str = 1,
+    low: str = "",
+    high: str = "",
+    spread: str = "sd",
 ) -> Grimmer:
     """Say whether n multiples of `grain` can have the printed mean and standard deviation.
 
     divisor: `n-1`, `n` or `either`. A single value has no SD with n - 1: a printed 0 there is
-    undecidable (a convention), anything else inconsistent.
+    undecidable (a convention), anything else inconsistent. items: each value is the mean of so
+    many answers on the grain. low, high: the ends of the scale. spread: `sd`, or `se` where the
+    standard error is printed.
     """
     if divisor not in (*DIVISORS, "either"):
         raise SignkinError(f"the divisor {divisor!r}", expected=listed((*DIVISORS, "either")))
     n = count(n)
-    of_mean = grim(mean, n, grain, rounding)
-    spread = allowed(sd, rounding)
-    if spread.high < 0:
+    of_mean = grim(mean, n, grain, rounding, items)
+    between = allowed(sd, rounding)
+    if between.high < 0 or exactly(sd) < 0:
         raise SignkinError(f"the SD is {sd}", expected="a number from 0")
-    if n == 1:
-        return _single(sd, of_mean.sums)
     printed = f"{mean} ({sd})"
     if of_mean.verdict == INCONSISTENT:
         return Grimmer(INCONSISTENT, of_mean.why, printed, of_mean.recomputed, of_mean.interval)
+    step = grain_of(grain, items)
+    edges = (ceil(ratio(low) / step) if low else None, floor(ratio(high) / step) if high else None)
+    outside = _outside(mean, n, of_mean.sums, edges, (low, high))
+    if outside:
+        return Grimmer(INCONSISTENT, outside, printed, of_mean.recomputed, of_mean.interval)
+    if n == 1:
+        return _single(sd, of_mean.sums)
     tried = DIVISORS if divisor == "either" else (divisor,)
-    step = grain_of(grain)
-    try:
-        pairs = {
-            d: tuple(pairs_allowed(n, of_mean.sums, spread, step, n - 1 if d == "n-1" else n))
-            for d in tried
-        }
-    except _Undecided:
-        why = f"more than {MOST_PAIRS} pairs of sum and sum of squares fit, or the search is long"
-        return Grimmer(UNDECIDABLE, why, printed)
+    found = {
+        d: _try(n, of_mean.sums, Span(between, step, times_of(n, d, spread)), *edges) for d in tried
+    }
+    pairs = {d: f.pairs for d, f in found.items()}
+    complete = not any(f.open for f in found.values())
+    told = grain if str(items) == "1" else f"{grain} / {items} (items)"
+    word = "SD" if spread == "sd" else "standard error"
     fitting = [d for d in tried if pairs[d]]
+    if not fitting and not complete:
+        why = next(f.why for f in found.values() if f.open)
+        return Grimmer(UNDECIDABLE, why, printed, pairs=pairs, complete=False)
     if not fitting:
-        why = f"no {n} multiples of {grain} have mean {mean} and SD {sd} with divisor "
-        return Grimmer(INCONSISTENT, why + " or ".join(tried), printed, pairs=pairs)
+        scale = f" from {low or 'any'} to {high or 'any'}" if low or high else ""
+        why = f"no {n} multiples of {told}{scale} have mean {mean} and {word} {sd} with divisor "
+        return Grimmer(
+            INCONSISTENT, why + " or ".join(tried), printed,
+            _nearest(n, of_mean.sums, between, step, times_of(n, tried[0], spread)), pairs=pairs,
+        )  # fmt: skip
+    return _fits(n, fitting, found, told, step, spread, (printed, str(between), complete))
+
+
+def _try(n: int, sums: Sequence[int], span: Span, low: int | None, high: int | None) -> _Tried:
+    pairs: list[Pair] = []
+    unsure = False
+    try:
+        for pair in pairs_allowed(n, sums, span, low, high, Steps()):
+            if pair is None:
+                unsure = True
+            elif len(pairs) == MOST_PAIRS:
+                return _Tried(tuple(sorted(pairs)), True, f"more than {MOST_PAIRS} pairs fit")
+            else:
+                pairs.append(pair)
+    except TooLong:
+        unsure = True
+    return _Tried(tuple(sorted(pairs)), unsure, "too many samples to try: the search was cut off")
+
+
+def _outside(
+    mean: str, n: int, sums: Sequence[int], edges: tuple[int | None, int | None],
+    told: tuple[str, str],
+) -> str:  # fmt: skip
+    """Return why a mean lies outside its scale, or nothing."""
+    low, high = edges
+    if low is not None and high is not None and low > high:
+        raise SignkinError(f"the scale from {told[0]} to {told[1]}", expected="its lower end first")
+    if low is not None and sums[-1] < n * low:
+        return f"the mean {mean} lies below {told[0]}, the lower end of the scale"
+    if high is not None and sums[0] > n * high:
+        return f"the mean {mean} lies above {told[1]}, the upper end of the scale"
+    return ""
+
+
+def _fits(
+    n: int, fitting: Sequence[str], tried: Mapping[str, _Tried], grain: str, step: Fraction,
+    spread: str, told: tuple[str, str, bool],
+) -> Grimmer:  # fmt: skip
     d = fitting[0]
-    found = pairs[d]
-    told = f"sum {found[0][0]}, sum of squares {found[0][1]}"
-    why = (
-        f"in grains of {grain}: {told}"
-        if len(found) == 1
-        else f"{len(found)} pairs of sum and sum of squares fit"
-    ) + f", divisor {' or '.join(fitting)}"
-    sds = [float(sd_of(pair, n, d) * step.numerator / step.denominator) for pair in found]
+    found = tried[d].pairs
+    one = f"in grains of {grain}: sum {found[0][0]}, sum of squares {found[0][1]}"
+    number = f"{len(found)} pairs" if not tried[d].open else f"{len(found)} pairs or more"
+    why = one if len(found) == 1 and told[2] else f"{number} of sum and sum of squares fit"
+    why += f", divisor {' or '.join(fitting)}"
+    by = n**0.5 if spread == "se" else 1.0
+    sds = [sd_of(pair, n, d) * float(step) / by for pair in found]
     recomputed = f"{shown(Fraction(found[0][0]) * step / n)} ({min(sds):.6g}"
     recomputed += ")" if len(found) == 1 else f" to {max(sds):.6g})"
-    return Grimmer(CONSISTENT, why, printed, recomputed, str(spread), pairs=pairs)
+    pairs = {name: f.pairs for name, f in tried.items()}
+    return Grimmer(CONSISTENT, why, told[0], recomputed, told[1], pairs=pairs, complete=told[2])
 
 
-def _single(sd: str, sums: tuple[int, ...]) -> Grimmer:
-    pairs = {"n": tuple((s, s * s) for s in sums)}
+def _nearest(n: int, sums: Sequence[int], sd: Interval, step: Fraction, times: int) -> str:
+    """Return the nearest SDs that the first possible sum has, to both sides (no bounds)."""
+    if not sums:
+        return ""
+    total, found = sums[0], []
+    middle = round(sd.middle**2 * times / step**2 + Fraction(total * total, n))
+    for way in (-2, 2):
+        for squares in range(middle + (middle - total) % 2, middle + 200 * way, way):
+            if possible(n, total, squares, steps=Steps(2_000)):
+                root = float((squares - Fraction(total * total, n)) * step**2 / times) ** 0.5
+                found.append(f"{root:.6g}")
+                break
+    return f"nearest possible: {' or '.join(dict.fromkeys(found))}" if found else ""
+
+
+def _single(sd: str, sums: Sequence[int]) -> Grimmer:
+    pairs = {"n": tuple((s, s * s) for s in sums[:MOST_PAIRS])}
     if exactly(sd) == 0:
         why = "a single value has no SD with divisor n - 1; the printed 0 is a convention"
         return Grimmer(UNDECIDABLE, why, sd, pairs=pairs)
@@ -105,223 +186,3 @@ def sd_of(pair: Pair, n: int, divisor: str = "n-1") -> float:
     total, squares = pair
     ss = Fraction(squares) - Fraction(total * total, n)
     return float(ss / (n - 1 if divisor == "n-1" else n)) ** 0.5
-
-
-def pairs_allowed(
-    n: int, sums: tuple[int, ...], sd: Interval, step: Fraction, divisor: int
-) -> Iterator[Pair]:
-    """Yield (sum, sum of squares) that n whole numbers can have and the print allows."""
-    low = max(sd.low, Fraction(0)) / step
-    high = sd.high / step
-    seen = 0
-    for total in sums:
-        base = Fraction(total * total, n)
-        first, last = ceil(low**2 * divisor + base), floor(high**2 * divisor + base)
-        for squares in range(first, last + 1):
-            ss = squares - base
-            if sd.low_open and sd.low >= 0 and ss == low**2 * divisor:
-                continue
-            if sd.high_open and ss == high**2 * divisor:
-                continue
-            if squares % 2 == total % 2 and exists(n, total, squares):
-                seen += 1
-                if seen > MOST_PAIRS:
-                    raise _Undecided
-                yield total, squares
-
-
-def exists(
-    n: int, total: int, squares: int, low: int | None = None, high: int | None = None
-) -> bool:
-    """Whether n whole numbers (in low..high, where given) have a sum and a sum of squares.
-
-    Raises _Undecided after MOST_STEPS steps; `possible` turns that into None.
-    """
-    if n > MOST_DEEP:
-        # Beside numbers at the mean, so many are enough for any spread that there is.
-        shift = total // n
-        ones = total - n * shift
-        inside = min(ones, MOST_DEEP)
-        q = squares - 2 * shift * total + n * shift * shift - (ones - inside)
-        edges = [None if edge is None else edge - shift for edge in (low, high)]
-        room = (edges[0] or 0) <= 0 and (edges[1] is None or edges[1] >= 1) and q >= 0
-        if room and next(_multisets(MOST_DEEP, inside, q, edges[0], edges[1]), None) is not None:
-            return True
-        if squares % 2 != total % 2 or n * squares < total * total or q < inside:
-            return False
-        raise _Undecided
-    return next(_multisets(n, total, squares, low, high), None) is not None
-
-
-def possible(
-    n: int, total: int, squares: int, low: int | None = None, high: int | None = None
-) -> bool | None:
-    """Return `exists`, or None where the search would be too long."""
-    try:
-        return exists(n, total, squares, low, high)
-    except _Undecided:
-        return None
-
-
-def _multisets(
-    n: int, total: int, squares: int, low: int | None, high: int | None
-) -> Iterator[tuple[int, ...]]:
-    """Yield all falling sequences of n whole numbers with a sum and a sum of squares.
-
-    Moved to a mean near zero first, which keeps the numbers small.
-    """
-    shift = total // n
-    moved = total - n * shift
-    moved_squares = squares - 2 * shift * total + n * shift * shift
-    reach = isqrt(max(moved_squares, 0))
-    bottom = -reach if low is None else max(low - shift, -reach)
-    top = reach if high is None else min(high - shift, reach)
-    steps = [0]
-    dead: set[tuple[int, int, int, int]] = set()
-
-    def search(k: int, s: int, q: int, most: int) -> Iterator[tuple[int, ...]]:
-        # k numbers left, none above `most`, with sum s and squares q.
-        if k * q < s * s or (q - s) % 2 or s > k * most or s < k * bottom:
-            return
-        if k == 1:
-            if s * s == q and bottom <= s <= most:
-                yield (s,)
-            return
-        if k == 2:
-            root = isqrt(2 * q - s * s)
-            if root * root == 2 * q - s * s and (s + root) % 2 == 0:
-                larger, smaller = (s + root) // 2, (s - root) // 2
-                if larger <= most and smaller >= bottom:
-                    yield (larger, smaller)
-            return
-        state = (k, s, q, most)
-        if state in dead:
-            return
-        found = False
-        # The largest number is at least the mean, and no farther from it than the spread allows.
-        spread = isqrt((k - 1) * (k * q - s * s)) // k + 1
-        first = min(most, floor(Fraction(s, k)) + spread + 1, isqrt(q))
-        last = max(ceil(Fraction(s, k)), bottom)
-        for value in range(first, last - 1, -1):
-            steps[0] += 1
-            if steps[0] > MOST_STEPS:
-                raise _Undecided
-            for rest in search(k - 1, s - value, q - value * value, value):
-                found = True
-                yield (value, *rest)
-        if not found:
-            dead.add(state)
-
-    if moved_squares >= 0 and bottom <= top:
-        for values in search(n, moved, moved_squares, top):
-            yield tuple(value + shift for value in values)
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Samples that fit a print, in grains, each sorted; all of them, or some drawn at random."""
-
-    values: tuple[tuple[int, ...], ...]
-    complete: bool
-    grain: str
-
-    def in_units(self) -> list[list[float]]:
-        """Return the samples in the unit of the print."""
-        step = exactly(self.grain)
-        return [[float(v * step) for v in sample] for sample in self.values]
-
-
-def samples(
-    mean: str,
-    sd: str,
-    n: int | str,
-    grain: str = "1",
-    low: str | None = None,
-    high: str | None = None,
-    divisor: str = "n-1",
-    most: int = 1000,
-    seed: int = 0,
-    rounding: str = "nearest",
-) -> Samples:
-    """Return samples of n multiples of `grain` in low..high that print this mean and SD.
-
-    All of them (as sorted samples) where there are at most `most`; else `most` draws of a
-    random walk with a seed: it redraws three values at a time among all triples with the same
-    sum and sum of squares, which favours no sample that it can reach.
-    """
-    n = count(n)
-    step = grain_of(grain)
-    bottom = None if low is None else ceil(exactly(low) / step)
-    top = None if high is None else floor(exactly(high) / step)
-    pairs = grimmer(mean, sd, n, grain, divisor, rounding).pairs.get(divisor, ())
-    if n == 1:
-        kept = [s for s in grim(mean, 1, grain, rounding).sums if _inside(s, bottom, top)]
-        return Samples(tuple((s,) for s in kept), True, grain)
-    found: list[tuple[int, ...]] = []
-    starts: list[tuple[int, ...]] = []
-    complete = True
-    for total, squares in pairs:
-        before = len(found)
-        try:
-            for values in _multisets(n, total, squares, bottom, top):
-                found.append(tuple(sorted(values)))
-                if len(found) > most:
-                    complete = False
-                    break
-        except _Undecided:
-            complete = False
-        starts += found[before : before + 1]
-        if len(found) > most:
-            break
-    if complete:
-        return Samples(tuple(sorted(found)), True, grain)
-    if not starts:
-        raise SignkinError(
-            f"the search for {n} values with mean {mean} and SD {sd} is too long",
-            expected="a smaller n or SD, or a range of the values",
-        )
-    rng = seeds.stream(seed, "samples", mean, sd, str(n), grain)
-    drawn = _walk(starts, bottom, top, most, rng)
-    return Samples(tuple(drawn), False, grain)
-
-
-def _inside(value: int, low: int | None, high: int | None) -> bool:
-    return (low is None or value >= low) and (high is None or value <= high)
-
-
-def _walk(
-    starts: list[tuple[int, ...]],
-    low: int | None,
-    high: int | None,
-    draws: int,
-    rng: np.random.Generator,
-) -> Iterator[tuple[int, ...]]:
-    n = len(starts[0])
-    current = [list(start) for start in starts]
-    for draw in range(draws):
-        values = current[draw % len(current)]
-        for _ in range(2 * n):
-            at = rng.choice(n, size=3, replace=False)
-            s = sum(values[i] for i in at)
-            q = sum(values[i] ** 2 for i in at)
-            options = [t for t in _triples(s, q) if all(_inside(v, low, high) for v in t)]
-            for i, v in zip(at, options[int(rng.integers(len(options)))], strict=True):
-                values[i] = v
-        yield tuple(sorted(values))
-
-
-@lru_cache(maxsize=4096)
-def _triples(s: int, q: int) -> tuple[tuple[int, int, int], ...]:
-    """Return all ordered triples of whole numbers with a sum and a sum of squares."""
-    out = []
-    spread = isqrt(max(0, 2 * (3 * q - s * s))) // 3 + 1
-    for a in range(s // 3 - spread - 1, s // 3 + spread + 2):
-        rest, squares = s - a, q - a * a
-        square = 2 * squares - rest * rest
-        if square < 0:
-            continue
-        root = isqrt(square)
-        if root * root == square and (rest + root) % 2 == 0:
-            b, c = (rest + root) // 2, (rest - root) // 2
-            out += [(a, b, c)] if b == c else [(a, b, c), (a, c, b)]
-    return tuple(out)

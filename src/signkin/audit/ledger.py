@@ -7,12 +7,13 @@ On printed numbers a claim is `consistent` or `inconsistent`; on a corpus it `ho
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import pandas as pd
 
-from signkin.audit import corpus_checks, published
+from signkin.audit import checks as checks_on_print
+from signkin.audit import corpus_checks
 from signkin.audit.findings import (
     CONSISTENT,
     FAILS,
@@ -21,14 +22,21 @@ from signkin.audit.findings import (
     NOT_TESTABLE,
     UNDECIDABLE,
     Finding,
+    unusable,
 )
 from signkin.audit.paper import Check, Claim, Paper
 from signkin.audit.registry import CORPUS, PUBLISHED, Evidence, Missing, OnCorpus, OnPrint, run
+from signkin.errors import SignkinError
 from signkin.tables import TABLES
 
 PRINT = "published numbers"
 SIMULATED, REAL = "simulated", "real"
-__all__ = ["CORPUS", "PUBLISHED", "Evidence", "Ledger", "audit", "corpus_checks", "published"]
+__all__ = [
+    "CORPUS", "PUBLISHED", "Evidence", "Ledger", "audit", "checks_on_print", "corpus_checks",
+]  # fmt: skip
+
+
+_SHOWN = [f.name for f in fields(Finding) if f.name != "item"]
 
 
 @dataclass(frozen=True)
@@ -37,6 +45,8 @@ class Ledger:
 
     claims: pd.DataFrame
     checks: pd.DataFrame
+    faults: tuple[str, ...] = ()  # what could not be used, a sentence each
+    details: pd.DataFrame = field(default_factory=pd.DataFrame)  # checks, with all that is known
 
 
 @dataclass(frozen=True)
@@ -60,12 +70,15 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
     """Run every check of every claim, on print and on each corpus.
 
     corpora: their `files` are the tables of the study that the paper's claims read; see
-    `evidence_for`. Unknown checks, tables and arguments are errors at their line of claims.yaml.
+    `evidence_for`. What cannot be used (unknown checks, tables, arguments, bad cells)
+    is a fault with its file and line; the other checks go on.
     """
     corpora = list(corpora)
     claims: list[dict[str, str]] = []
     checks: list[dict[str, str]] = []
+    faults: list[str] = []
     for paper in papers:
+        faults += [str(fault) for fault in paper.faults]
         for claim in paper.claims:
             for evidence in (None, *corpora):
                 done = _run(paper, claim, evidence)
@@ -80,9 +93,13 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
                 }  # fmt: skip
                 claims.append(_claim_row(lead, claim, done, verdict, note))
                 checks += [row for d in done for row in _check_rows(lead, d)]
+                faults += [f.why for d in done for f in d.findings if f.fault]
+    details = pd.DataFrame(checks)
     return Ledger(
         pd.DataFrame(claims, columns=TABLES["claims"].names()),
-        pd.DataFrame(checks, columns=TABLES["checks"].names()),
+        details.reindex(columns=TABLES["checks"].names()),
+        tuple(dict.fromkeys(faults)),
+        details,
     )
 
 
@@ -111,7 +128,7 @@ def evidence_for(
 def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
     if evidence is None:
         on_print = OnPrint(paper, claim)
-        return [_Done(check, run(check, on_print)) for check in claim.published]
+        return [_Done(check, _unless_bad(check, on_print)) for check in claim.published]
     on_corpus = OnCorpus(paper, claim, evidence)
     out = []
     kind = SIMULATED if evidence.simulated else REAL
@@ -120,12 +137,20 @@ def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
             out.append(_Done(check, (), f"a check for {check.only} corpora"))
             continue
         try:
-            out.append(_Done(check, run(check, on_corpus)))
+            out.append(_Done(check, _unless_bad(check, on_corpus)))
         except Missing as missing:
             out.append(_Done(check, (), str(missing)))
             if check.gate:
                 return out[-1:]
     return out
+
+
+def _unless_bad(check: Check, context: OnPrint | OnCorpus) -> list[Finding]:
+    """Run a check; input that cannot be used is its finding, and the others go on."""
+    try:
+        return run(check, context)
+    except SignkinError as error:
+        return [unusable(error)]
 
 
 def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> tuple[str, str]:
@@ -192,12 +217,7 @@ def _check_rows(lead: Mapping[str, str], done: _Done) -> list[dict[str, str]]:
             "counts": "beside the claim" if done.check.beside else "yes",
             "item": f.item,
             "reads": done.check.reads,
-            "printed": f.printed,
-            "recomputed": f.recomputed,
-            "interval": f.interval,
-            "verdict": f.verdict,
-            "why": f.why,
-            "source": f.source,
+            **{name: getattr(f, name) for name in _SHOWN},
         }
         for f in findings
     ]

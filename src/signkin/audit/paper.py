@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import jsonschema
-import yaml
-
+from signkin.audit.claims_file import GUIDE, read_claims, text_of
 from signkin.errors import SignkinError, listed
 
-SCHEMA = files("signkin") / "schemas" / "claims.schema.yaml"
 OWN = (
     "check",
     "reads",
@@ -24,7 +19,6 @@ OWN = (
     "gate",
     "beside",
 )  # keys of a check that are no arguments of it
-GUIDE = "See docs/claims.md."
 
 
 @dataclass(frozen=True)
@@ -108,6 +102,7 @@ class Paper:
     claims: tuple[Claim, ...]
     curves: tuple[Curve, ...]
     tables: dict[str, list[PrintedRow]] = field(default_factory=dict)
+    faults: tuple[SignkinError, ...] = ()  # claims that cannot be used, and are left out
 
     @property
     def file(self) -> Path:
@@ -129,17 +124,31 @@ def _rows(path: Path, folder: Path) -> Iterator[PrintedRow]:
     if not path.is_file():
         there = sorted(p.name for p in folder.glob("*.csv"))
         raise SignkinError(f"there is no table {path.name}", file=folder, expected=listed(there))
-    reader = csv.DictReader(path.read_text(encoding="utf-8-sig").splitlines(), strict=True)
-    for cells in reader:
-        if None in cells or None in cells.values():
+    reader = csv.DictReader(text_of(path).splitlines(), strict=True)
+    try:
+        header = reader.fieldnames or ()
+        doubled = sorted({name for name in header if list(header).count(name) > 1})
+        if doubled or not any(name.strip() for name in header):
             raise SignkinError(
-                "the row has more or fewer cells than the header",
-                file=path,
-                place=f"line {reader.line_num}",
-                expected=listed(reader.fieldnames or ()),
-                todo="A decimal comma wants a point.",
-            )
-        yield PrintedRow(cells, path, reader.line_num)
+                f"the columns {listed(doubled)} stand there twice" if doubled
+                else "there is no header", file=path, place="line 1",
+                expected="a header with each column once",
+                todo="A merged header wants a name for each of its columns.",
+            )  # fmt: skip
+        for cells in reader:
+            if None in cells or None in cells.values():
+                raise SignkinError(
+                    "the row has more or fewer cells than the header",
+                    file=path,
+                    place=f"line {reader.line_num}",
+                    expected=listed(header),
+                    todo="A decimal comma wants a point.",
+                )
+            yield PrintedRow(cells, path, reader.line_num)
+    except csv.Error as error:
+        raise SignkinError(
+            str(error), file=path, place=f"line {reader.line_num}", expected="a table in CSV"
+        ) from None
 
 
 def read_paper(folder: str | Path) -> Paper:
@@ -153,27 +162,10 @@ def read_paper(folder: str | Path) -> Paper:
         )  # fmt: skip
     if not path.is_file():
         raise SignkinError("there is no claims.yaml", file=folder, todo=GUIDE)
-    text = path.read_text(encoding="utf-8")
-    try:
-        content = yaml.safe_load(text)
-        lines = dict(_lines(yaml.compose(text, Loader=yaml.SafeLoader), ()))
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = None if mark is None else f"line {mark.line + 1}"
-        problem = getattr(error, "problem", None) or "it is not YAML"
-        raise SignkinError(str(problem), file=path, place=place) from None
-    _check_schema(content, path, lines)
-    claims = tuple(_claims(content, lines))
-    seen: dict[str, int] = {}
-    for claim in claims:
-        if claim.id in seen:
-            raise SignkinError(
-                f"the claim {claim.id} stands in line {seen[claim.id]} already",
-                file=path,
-                place=f"line {claim.line}",
-                expected="each once",
-            )
-        seen[claim.id] = claim.line
+    file = read_claims(path)
+    content, lines = file.content, file.lines
+    claims = tuple(_claims(content, lines, file.numbers))
+    seen = {claim.id: claim.line for claim in claims}
     curves = tuple(
         Curve(
             claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
@@ -184,18 +176,22 @@ def read_paper(folder: str | Path) -> Paper:
         for i, c in enumerate(content.get("multiverse", []))
     )  # fmt: skip
     for curve in curves:
-        if curve.claim not in seen:
+        if curve.claim not in seen and not file.faults:
             raise SignkinError(
                 f"the curve's claim {curve.claim} is not a claim of the paper",
                 file=path,
                 place=f"line {curve.line}",
                 expected=listed(seen, 40),
             )
-    return Paper(folder, content["paper"], content["study"], claims, curves)
+    curves = tuple(curve for curve in curves if curve.claim in seen)
+    return Paper(folder, content["paper"], content["study"], claims, curves,
+                 faults=tuple(file.faults))  # fmt: skip
 
 
-def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) -> Iterator[Claim]:
-    for i, claim in enumerate(content["claims"]):
+def _claims(
+    content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int], numbers: Sequence[int]
+) -> Iterator[Claim]:
+    for i, claim in zip(numbers, content["claims"], strict=True):
         checks = {}
         for side in ("published", "corpora"):
             checks[side] = tuple(
@@ -223,37 +219,3 @@ def _claims(content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int]) ->
             needs=claim["needs"],
             line=lines[("claims", i)],
         )
-
-
-def _lines(node: Any, path: tuple[Any, ...]) -> Iterator[tuple[tuple[Any, ...], int]]:
-    yield path, node.start_mark.line + 1
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            yield from _lines(value, (*path, key.value))
-            yield (*path, key.value), key.start_mark.line + 1
-    elif isinstance(node, yaml.SequenceNode):
-        for i, value in enumerate(node.value):
-            yield from _lines(value, (*path, i))
-
-
-@cache
-def _validator() -> jsonschema.Draft202012Validator:
-    content = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
-    return jsonschema.Draft202012Validator(content)
-
-
-def _check_schema(content: Any, path: Path, lines: Mapping[tuple[Any, ...], int]) -> None:
-    error = jsonschema.exceptions.best_match(_validator().iter_errors(content))
-    if error is None:
-        return
-    at = tuple(error.absolute_path)
-    while at not in lines:
-        at = at[:-1]
-    rule = error.schema if isinstance(error.schema, dict) else {}
-    raise SignkinError(
-        error.message if len(error.message) < 160 else error.message[:157] + "...",
-        file=path,
-        place=f"line {lines[at]}",
-        expected=rule.get("description"),
-        todo=GUIDE,
-    )

@@ -5,20 +5,36 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import pandas as pd
 
 from signkin.audit.findings import Finding
 from signkin.audit.paper import Check, Claim, Paper
-from signkin.audit.rounding import Interval, allowed, exactly
+from signkin.audit.rounding import Interval, allowed, exactly, is_number
 from signkin.errors import SignkinError, listed
 from signkin.tables import TABLES, read_table
 
 CheckFunction = Callable[..., list[Finding]]
 PUBLISHED: dict[str, CheckFunction] = {}
 CORPUS: dict[str, CheckFunction] = {}
+ABOUT: dict[str, About] = {}
+
+
+@dataclass(frozen=True)
+class About:
+    """What a check on print is shown with: its subject, an example, and the example's outcome.
+
+    example: arguments as a claim gives them. table: the printed table that the example reads, as
+    CSV. outcome: the verdict.
+    """
+
+    subject: str
+    example: Mapping[str, Any]
+    table: str = ""
+    outcome: str = "consistent"
 
 
 class Missing(Exception):
@@ -34,18 +50,31 @@ class OnPrint:
 
     def text(self, name: object) -> str:
         """Return a printed number: of this claim, of another (`N02.mean`), or digits."""
-        found = self.claim.printed.get(str(name), self.paper.printed().get(str(name)))
+        found = self.claim.printed.get(str(name), self.all_printed.get(str(name)))
         return str(name) if found is None else found
+
+    @cached_property
+    def all_printed(self) -> dict[str, str]:
+        """Every printed number of the paper by `claim.name`."""
+        return self.paper.printed()
 
     def values(self, exact: tuple[str, ...] = ()) -> dict[str, Interval]:
         """Return what every printed number allows, by name; `exact` ones as they stand."""
         out = {}
-        for name, text in {**self.paper.printed(), **self.claim.printed}.items():
-            if text[0] in "<>":  # a bound, no number
+        for name, text in {**self.all_printed, **self.claim.printed}.items():
+            if not is_number(text):  # a bound, or `ns`
                 continue
             value = Interval(exactly(text), exactly(text)) if name in exact else allowed(text)
             out[name] = value
         return out
+
+    def points(self) -> dict[str, Interval]:
+        """Return every printed number as its digits stand, for a calculation by hand."""
+        return {
+            name: Interval(exactly(text), exactly(text))
+            for name, text in {**self.all_printed, **self.claim.printed}.items()
+            if is_number(text)
+        }
 
     def source(self, table: str) -> str:
         """Return the file of a printed table."""
@@ -134,10 +163,17 @@ def _guessed(path: Path) -> pd.DataFrame:
     return frame
 
 
-def on_print(function: CheckFunction) -> CheckFunction:
-    """Register a check on printed numbers under its function's name."""
-    PUBLISHED[function.__name__] = function
-    return function
+def on_print(
+    subject: str, example: Mapping[str, Any], table: str = "", outcome: str = "consistent"
+) -> Callable[[CheckFunction], CheckFunction]:
+    """Register a check on printed numbers under its function's name, with an example."""
+
+    def register(function: CheckFunction) -> CheckFunction:
+        PUBLISHED[function.__name__] = function
+        ABOUT[function.__name__] = About(subject, example, table, outcome)
+        return function
+
+    return register
 
 
 def on_corpus(function: CheckFunction) -> CheckFunction:
@@ -176,6 +212,9 @@ def run(check: Check, context: OnPrint | OnCorpus) -> list[Finding]:
         )
     arguments: dict[str, Any] = dict(check.arguments)
     try:
+        if isinstance(context, OnPrint):
+            arguments = typed(function, arguments)
+            return function(context, **arguments)
         return function(context, **arguments)
     except Missing as missing:
         if "of this name" in str(missing):
@@ -183,3 +222,58 @@ def run(check: Check, context: OnPrint | OnCorpus) -> list[Finding]:
         raise
     except SignkinError as error:
         raise error.at(file=file, place=place) from None
+    except (TypeError, ValueError, LookupError, AttributeError, ArithmeticError) as error:
+        if isinstance(context, OnCorpus):
+            raise
+        raise SignkinError(
+            f"the arguments of {check.name} of claim {context.claim.id} cannot be used "
+            f"({type(error).__name__})",
+            file=file, place=place, todo=f"See `signkin audit list {check.name}`.",
+        ) from None  # fmt: skip
+
+
+def typed(function: CheckFunction, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return arguments as the function wants them; each that cannot be is an error by name.
+
+    Text of the command line is taken apart at commas where a list is wanted.
+    """
+    hints = get_type_hints(function)
+    if "alpha" in given:
+        level = _word("alpha", str(given["alpha"]))
+        if not is_number(level) or not 0 < exactly(level) < 1:
+            raise SignkinError(f"alpha is {level[:40]!r}", expected="a number between 0 and 1")
+        given = {**given, "alpha": level}
+    return {name: _typed(name, value, str(hints[name])) for name, value in given.items()}
+
+
+def _typed(name: str, value: Any, hint: str) -> Any:
+    if hint == "<class 'bool'>":
+        told = {"true": True, "yes": True, "false": False, "no": False}
+        if isinstance(value, bool) or str(value).lower() in told:
+            return value if isinstance(value, bool) else told[str(value).lower()]
+        raise SignkinError(f"{name} is {str(value)[:40]!r}", expected="true or false")
+    if "Mapping" in hint:
+        if isinstance(value, Mapping):
+            return value
+        raise SignkinError(f"{name} is {str(value)[:40]!r}", expected="names with their values")
+    if "Sequence" in hint:
+        parts = value.split(",") if isinstance(value, str) else value
+        parts = parts if isinstance(parts, list | tuple) else [parts]
+        if hint.count("Sequence") == 2:
+            parts = value.split(";") if isinstance(value, str) else parts
+            return [_typed(name, part, hint.replace("Sequence", "", 1)) for part in parts]
+        return [_word(name, part) for part in parts]
+    if hint == "<class 'float'>":
+        return float(exactly(str(value)))
+    if value is None and "None" in hint:
+        return None
+    return _word(name, value)
+
+
+def _word(name: str, value: Any) -> str:
+    if isinstance(value, float | bool) or not isinstance(value, str | int):
+        raise SignkinError(
+            f"{name} is {str(value)[:40]!r}, and no text",
+            expected="printed digits in quotes, because trailing zeros count",
+        )
+    return str(value).strip()

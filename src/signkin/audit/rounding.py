@@ -7,10 +7,11 @@ Everything is exact (fractions); nothing here knows a paper or a unit.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from math import ceil, floor
+from math import ceil, exp, floor
 
 from signkin.errors import SignkinError, listed
 
@@ -51,10 +52,14 @@ class Interval:
         """Half way."""
         return (self.low + self.high) / 2
 
-    def multiples(self, step: Fraction) -> list[int]:
+    def multiples(self, step: Fraction) -> range:
         """Return the integers k with k * step inside."""
         first, last = ceil(self.low / step), floor(self.high / step)
-        return [k for k in range(first, last + 1) if k * step in self]
+        if self.low_open and first * step == self.low:
+            first += 1
+        if self.high_open and last * step == self.high:
+            last -= 1
+        return range(first, last + 1)
 
     def __add__(self, other: Interval | Fraction | int) -> Interval:
         """Sum."""
@@ -138,20 +143,42 @@ def number(printed: str) -> Decimal:
         raise SignkinError(
             f"{printed!r} is no number", expected="digits with a decimal point", todo=todo
         )
-    return Decimal(text)
+    value = Decimal(text)
+    exponent = value.as_tuple().exponent
+    if len(text) > 60 or not isinstance(exponent, int) or abs(exponent) > 300:
+        raise SignkinError(
+            f"the number {printed[:20]!r}... is too long", expected="at most 60 digits, 1e300"
+        )
+    return value
+
+
+def is_number(printed: str) -> bool:
+    """Whether a printed text is one number (no bound, no word)."""
+    return _NUMBER.fullmatch(printed.strip().replace("\u2212", "-")) is not None
 
 
 def count(printed: str | int) -> int:
     """Return a printed count: a whole number from 1."""
     text = str(printed).strip()
-    if not re.fullmatch(r"\d+", text) or int(text) < 1:
-        raise SignkinError(f"n is {text!r}", expected="a whole number from 1")
+    if not re.fullmatch(r"\d{1,15}", text) or int(text) < 1:
+        raise SignkinError(f"n is {text[:40]!r}", expected="a whole number from 1")
     return int(text)
 
 
 def exactly(printed: str) -> Fraction:
     """Return a printed number as an exact one."""
     return Fraction(number(printed))
+
+
+def ratio(printed: str) -> Fraction:
+    """Return an exact number, which may be written as a ratio: `0.01`, `1/3`."""
+    above, line, below = str(printed).partition("/")
+    if not line:
+        return exactly(printed)
+    divisor = exactly(below)
+    if divisor == 0:
+        raise SignkinError(f"the ratio {printed!r}", expected="a divisor other than 0")
+    return exactly(above) / divisor
 
 
 def allowed(printed: str, rounding: str = "nearest") -> Interval:
@@ -183,6 +210,41 @@ def allowed(printed: str, rounding: str = "nearest") -> Interval:
         if size == 0 and rounding == "half_up":
             return Interval(-half, half, low_open=True, high_open=True)
     return -part if value < 0 else part
+
+
+def root(value: Interval | Fraction | float) -> Interval | float:
+    """Return the square root; of an interval that may lie below zero it is an error."""
+    return _each(value, lambda x: x**0.5, lowest=0, what="the square root")
+
+
+def exponential(value: Interval | Fraction | float) -> Interval | float:
+    """Return e to a power, of a number or of an interval."""
+    return _each(value, exp, highest=700, what="exp")
+
+
+def _each(
+    value: Interval | Fraction | float,
+    function: Callable[[float], float],
+    lowest: float = float("-inf"),
+    highest: float = float("inf"),
+    what: str = "",
+) -> Interval | float:
+    """Return a rising function of a number or of both ends; floats are off by 1e-15 at most."""
+    ends = None if isinstance(value, float) else as_interval(value)
+    low: Fraction | float = float(value) if isinstance(value, float) else as_interval(value).low
+    high: Fraction | float = low if isinstance(value, float) else as_interval(value).high
+    if low < lowest or high > highest:
+        raise SignkinError(
+            f"{what} of {shown(low)}" + ("" if low == high else f" to {shown(high)}"),
+            expected=f"a number from {lowest:g}" if low < lowest else f"one up to {highest:g}",
+        )
+    if ends is None:
+        return function(float(low))
+    first, last = (Fraction(function(float(end))) for end in (low, high))
+    tiny = Fraction(1, 10**15)
+    if low == high and first * first == low:  # an exact root
+        return Interval(first, first)
+    return Interval(first * (1 - tiny), last * (1 + tiny), ends.low_open, ends.high_open)
 
 
 def shown(value: Fraction | float, significant: int = 7) -> str:

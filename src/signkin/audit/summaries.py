@@ -17,23 +17,35 @@ from numpy.typing import NDArray
 from scipy import optimize, stats
 
 from signkin.audit.grim import grain_of, grim
-from signkin.audit.grimmer import grimmer
+from signkin.audit.grimmer import grimmer, times_of
 from signkin.audit.rounding import Interval, allowed, count, exactly
 from signkin.errors import SignkinError
 
 
 @dataclass(frozen=True)
 class Group:
-    """A group as printed: its n, its mean, the sum of squares around it (divisor taken off)."""
+    """A group as printed: its n, its mean, the sum of squares around it (divisor taken off).
+
+    hand: mean and sum of squares that the printed digits themselves give; without them the
+    middles of the intervals.
+    """
 
     n: int
     mean: Interval
     ss: Interval
+    hand: tuple[Fraction, Fraction] | None = None
+
+    @property
+    def by_hand(self) -> tuple[Fraction, Fraction]:
+        """The mean and the sum of squares that a hand calculation starts from."""
+        if self.hand is None or (self.mean.width == 0 and self.ss.width == 0):
+            return self.mean.middle, self.ss.middle
+        return self.hand
 
 
 @dataclass(frozen=True)
 class Range:
-    """A number at the middle of what is printed, and the least and greatest that print allows."""
+    """A number by hand from the printed digits, and the least and greatest that print allows."""
 
     value: float
     low: float
@@ -56,19 +68,23 @@ def groups(
     grain: str | None = None,
     rounding: str = "nearest",
     divisor: str = "n-1",
+    spread: str = "sd",
 ) -> list[Group]:
-    """Return groups from printed numbers; the SD of a single value must be 0 or empty."""
+    """Return groups from printed numbers; the SD of a single value must be 0 or empty.
+
+    divisor: of the printed SD, `n-1` or `n`. spread: `sd`, or `se` where standard errors stand.
+    """
     if not len(n) == len(mean) == len(sd):
         raise SignkinError(
             f"{len(n)} n, {len(mean)} means and {len(sd)} SDs", expected="as many of each"
         )
-    return [_group(*row, grain, rounding, divisor) for row in zip(n, mean, sd, strict=True)]
+    return [_group(*row, grain, rounding, divisor, spread) for row in zip(n, mean, sd, strict=True)]
 
 
 def _group(
-    n: int | str, mean: str, sd: str, grain: str | None, rounding: str, divisor: str
+    n: int | str, mean: str, sd: str, grain: str | None, rounding: str, divisor: str, of: str
 ) -> Group:
-    size = count(n)
+    size, hand = count(n), exactly(mean)
     middle = allowed(mean, rounding)
     if size == 1:
         if sd.strip() and exactly(sd) != 0:
@@ -76,21 +92,23 @@ def _group(
         if grain is not None:
             fits = [k * grain_of(grain) for k in grim(mean, 1, grain, rounding).sums]
             middle = Interval(min(fits), max(fits)) if fits else middle
-        return Group(1, middle, Interval(Fraction(0), Fraction(0)))
+        return Group(1, middle, Interval(Fraction(0), Fraction(0)), (hand, Fraction(0)))
     spread = allowed(sd, rounding)
-    if spread.high < 0:
+    if exactly(sd) < 0:
         raise SignkinError(f"the SD is {sd}", expected="a number from 0")
-    times = size - 1 if divisor == "n-1" else size
+    times = times_of(size, divisor, of)
     ss = Interval(max(spread.low, Fraction(0)) ** 2 * times, spread.high**2 * times)
+    at = (hand, exactly(sd) ** 2 * times)
     if grain is not None:
-        pairs = grimmer(mean, sd, size, grain, divisor, rounding).pairs.get(divisor, ())
-        if pairs:
+        found = grimmer(mean, sd, size, grain, divisor, rounding, spread=of)
+        pairs = found.pairs.get(divisor, ())
+        if pairs and found.complete:
             step = grain_of(grain)
             means = [Fraction(s) * step / size for s, _ in pairs]
             squares = [(q - Fraction(s * s, size)) * step**2 for s, q in pairs]
             return Group(size, Interval(min(means), max(means)),
-                         Interval(min(squares), max(squares)))  # fmt: skip
-    return Group(size, middle, ss)
+                         Interval(min(squares), max(squares)), at)  # fmt: skip
+    return Group(size, middle, ss, at)
 
 
 def pooled_mean(of: Sequence[Group]) -> Interval:
@@ -106,13 +124,18 @@ def sums_of_squares(of: Sequence[Group]) -> tuple[Range, Range]:
     by at most sqrt(sum n_i h_i^2). The range may be a little too wide, never too narrow.
     """
     n = np.array([g.n for g in of], dtype=float)
-    means = np.array([float(g.mean.middle) for g in of])
+
+    def root(means: list[Fraction]) -> float:
+        values = np.array([float(m) for m in means])
+        return float(np.sqrt(n @ (values - n @ values / n.sum()) ** 2))
+
     half = np.array([float(g.mean.width) / 2 for g in of])
-    middle = float(np.sqrt(n @ (means - n @ means / n.sum()) ** 2))
+    middle, hand = root([g.mean.middle for g in of]), root([g.by_hand[0] for g in of])
     reach = float(np.sqrt(n @ half**2))
-    between = Range(middle**2, max(0.0, middle - reach) ** 2, (middle + reach) ** 2)
+    between = Range(hand**2, max(0.0, middle - reach) ** 2, (middle + reach) ** 2)
     ends = [float(sum((pick(g.ss) for g in of), Fraction(0))) for pick in _ENDS]
-    return between, Range((ends[0] + ends[1]) / 2, ends[0], ends[1])
+    within = float(sum((g.by_hand[1] for g in of), Fraction(0)))
+    return between, Range(within, ends[0], ends[1])
 
 
 _ENDS: tuple[Callable[[Interval], Fraction], ...] = (lambda i: i.low, lambda i: i.high)
@@ -217,7 +240,11 @@ def welch(of: Sequence[Group]) -> Test:
     box, middle = _box(of)
     statistic = _searched(lambda x: parts(x)[0], middle, box)
     df2 = _searched(lambda x: parts(x)[1], middle, box)
-    p = _searched(lambda x: float(stats.f.sf(parts(x)[0], len(n) - 1, parts(x)[1])), middle, box)
+    top = len(n) - 1
+    corners = [float(stats.f.sf(f, top, df)) for f in (statistic.low, statistic.high)
+               for df in (df2.low, df2.high)]  # fmt: skip
+    hand = float(stats.f.sf(statistic.value, top, df2.value))
+    p = Range(hand, min(hand, *corners), max(hand, *corners))
     return Test("Welch's ANOVA", statistic, len(n) - 1, df2, p)
 
 
@@ -284,7 +311,8 @@ def _want_two(of: Sequence[Group]) -> None:
 def _box(of: Sequence[Group]) -> tuple[list[tuple[float, float]], NDArray[np.float64]]:
     box = [(float(g.mean.low), float(g.mean.high)) for g in of]
     box += [(float(g.ss.low) / (g.n - 1), float(g.ss.high) / (g.n - 1)) for g in of]
-    return box, np.array([(low + high) / 2 for low, high in box])
+    hand = [float(g.by_hand[0]) for g in of]
+    return box, np.array(hand + [float(g.by_hand[1]) / (g.n - 1) for g in of])
 
 
 def _searched(
@@ -292,7 +320,7 @@ def _searched(
     middle: NDArray[np.float64],
     box: list[tuple[float, float]],
 ) -> Range:
-    """Return a function's value at the middle and its least and greatest in the box.
+    """Return a function's value at the printed digits and its least and greatest in the box.
 
     The boxes of rounding are small: up to twelve sides all corners are tried, else the corner
     that the slopes at the middle point to, refined from there.

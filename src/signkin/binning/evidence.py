@@ -25,14 +25,13 @@ MOST_NOISES = 1e20
 class Engine:
     """The kernels for one trajectory (T, L) and the orders 0 to n_orders - 1.
 
-    exact: whether numbers have 32 digits, which is found out where it is None: by the size of the
-    data, then by what the ordinary kernels tell of their own digits.
+    exact: whether the data are so large that numbers want 32 digits. Smaller ones may have
+    residuals on a line, which the ordinary kernel tells, and then takes more care.
     """
 
     def __init__(
-        self, x: Floats, prior: Prior, longest: int, n_orders: int, dt_s: float | None,
-        exact: bool | None = None,
-    ) -> None:  # fmt: skip
+        self, x: Floats, prior: Prior, longest: int, n_orders: int, dt_s: float | None
+    ) -> None:
         self.bins, self.dims = x.shape
         self.longest = longest
         self.n_orders = n_orders
@@ -48,7 +47,7 @@ class Engine:
                 expected=f"less than {MOST_NOISES:.0e}",
                 todo="Check the unit of the data against that of noise_sd.",
             )
-        self.exact = bool(size > EXACT_ABOVE) if exact is None else exact
+        self.exact = bool(size > EXACT_ABOVE)
 
     def _rows(self, x: Floats) -> Floats:
         """Return data as the kernels want them, (L, T + 8): a row for each dimension."""
@@ -67,16 +66,16 @@ class Engine:
 
     def _filled(self, out: Floats) -> Floats:
         made = self._made
-        if not self.exact:
-            self.exact = segments.segment_evidence(
-                self._whitened, made.cosine, made.sine, made.constant, made.half, self.bins, out
-            )
         if self.exact:
             rotations = exact_rotations(*self._exact_key)
             segment_evidence_exactly(
                 self._rows(self._x), rotations, made.constant, made.half, self._scale, self.bins,
                 out,
             )  # fmt: skip
+            return out
+        given = (self._whitened, made.cosine, made.sine, made.constant, made.half, self.bins)
+        if segments.segment_evidence(*given, False, out):
+            segments.segment_evidence(*given, True, out)
         return out
 
     def expect(self, probability: Floats, wanted: tuple[int, ...]) -> tuple[Floats, Floats]:

@@ -82,7 +82,6 @@ def fit(
         log_evidence=found.log_evidence,
         order_probability=np.exp(found.log_evidence - log_sum(found.log_evidence)),
         cut_mass=found.cut_mass,
-        exact=engine.exact,
         _count_probability=found.probability,
         _boundary=found.boundary,
         _mean=mean,

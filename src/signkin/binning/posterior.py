@@ -37,8 +37,7 @@ class Posterior:
     ln P(D | M, S) for M = 0, 1, ... inner boundaries. log_evidence: (orders,), ln P(D | S).
     order_probability: (orders,), P(S | D). cut_mass: (orders,), a bound on the share of P(M | D)
     beyond the counts that were worked out. dt_s: duration of a bin, if told. sample_at: where in
-    its bin a sample stands, as a share of the bin. exact: whether evidences were worked out with
-    32 digits, as data that are huge beside their noise want (exact.py).
+    its bin a sample stands, as a share of the bin.
     """
 
     x: Floats
@@ -51,7 +50,6 @@ class Posterior:
     log_evidence: Floats
     order_probability: Floats
     cut_mass: Floats
-    exact: bool
     _count_probability: Floats
     _boundary: Floats
     _mean: Floats | None
@@ -190,9 +188,7 @@ class Posterior:
         return self._engine(order).by_order()[order]
 
     def _engine(self, order: int) -> Engine:
-        return Engine(
-            self.x, self.prior, self.max_segment_bins, order + 1, self.dt_s, exact=self.exact
-        )
+        return Engine(self.x, self.prior, self.max_segment_bins, order + 1, self.dt_s)
 
 
 def boundary_times(

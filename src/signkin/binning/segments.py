@@ -128,11 +128,64 @@ def _log_determinants(r: F, orders: int, dims: int, factor: F, out: F) -> bool:
     return lost
 
 
+@inlined
+def _append_carefully(
+    x: F, at: int, cosine: F, sine: F, n: int, orders: int, z: F, factor: F, rest: F, w: F
+) -> None:
+    """Append bins as `_append` does, and keep I + R as L D L', from which nothing is subtracted.
+
+    factor: (D, L (L+1)/2, 8), row by row, the diagonal of D in the place of L's, which is 1
+    (exact.py does the same with 32 digits). rest, w: (L, 8) scratch.
+    """
+    dims = x.shape[0]
+    for d in range(orders):
+        c, s = cosine[n, d], sine[n, d]
+        for k in range(dims):
+            e = load(rest, (k, 0))
+            if d == 0:
+                e = load(x, (k, at))
+            y = load(z, (0, d, k, 0))
+            store(z, (0, d, k, 0), c * y + s * e)
+            e = c * e - s * y
+            store(rest, (k, 0), e)
+            store(w, (k, 0), e)
+        a = splat(1.0)
+        for k in range(dims):
+            p, old = load(w, (k, 0)), load(factor, (d, k * (k + 3) // 2, 0))
+            b = a * p
+            new = old + b * p
+            store(factor, (d, k * (k + 3) // 2, 0), new)
+            over = 1.0 / new
+            a, b = a * old * over, b * over
+            for j in range(k + 1, dims):
+                of = j * (j + 1) // 2 + k
+                share = load(factor, (d, of, 0))
+                v = load(w, (j, 0)) - p * share
+                store(w, (j, 0), v)
+                store(factor, (d, of, 0), share + b * v)
+
+
+@inlined
+def _logs_of_pivots(factor: F, orders: int, dims: int, out: F) -> None:
+    """Fill out[d] (8,) with the log of the product of D's diagonal."""
+    for d in range(orders):
+        value, product = splat(0.0), splat(1.0)
+        for k in range(dims):
+            product = product * load(factor, (d, k * (k + 3) // 2, 0))
+            if k % 8 == 7:
+                value = value + log(product)
+                product = splat(1.0)
+        store(out, (d, 0), value + log(product))
+
+
 @kernel
-def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, out: F) -> bool:
+def segment_evidence(
+    x: F, cosine: F, sine: F, constant: F, half: F, bins: int, carefully: bool, out: F
+) -> bool:
     """Fill out, by segment or by order, with the log evidence of every segment.
 
-    Returns whether some of them have lost digits that matter: exact.py is for these data.
+    Returns whether some of them have lost digits that matter, and stops there: then they are to
+    be worked out `carefully`, which takes twice as long.
 
     x: (L, T + 8), whitened, 0 behind the last bin. The tables are those of prior.Tables. What
     would run over the end of the data is left as it was. Lanes beyond the highest order repeat it.
@@ -148,13 +201,21 @@ def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, 
     factor = aligned(pairs * WIDTH).reshape((pairs, WIDTH))
     values = aligned(groups * WIDTH * WIDTH).reshape((groups * WIDTH, WIDTH))
     turned = aligned(WIDTH * WIDTH).reshape((WIDTH, WIDTH))
-    lost = False
+    w = aligned(dims * WIDTH).reshape((dims, WIDTH))
     for first in range(0, bins, WIDTH):
         z[:] = 0.0
         r[:] = 0.0
+        if carefully:  # r holds the factors
+            for k in range(dims):
+                r[:, k * (k + 3) // 2] = 1.0
+        lost = False
         for n in range(min(longest, bins - first)):
-            _append(x, first + n, cosine, sine, n, orders, z, 0, 0, r, rest)
-            lost = _log_determinants(r, orders, dims, factor, values) or lost
+            if carefully:
+                _append_carefully(x, first + n, cosine, sine, n, orders, z, r, rest, w)
+                _logs_of_pivots(r, orders, dims, values)
+            else:
+                _append(x, first + n, cosine, sine, n, orders, z, 0, 0, r, rest)
+                lost = _log_determinants(r, orders, dims, factor, values) or lost
             for d in range(orders):
                 store(values, (d, 0), constant[n, d] - half[n] * load(values, (d, 0)))
             here = min(WIDTH, bins - first - n)
@@ -169,7 +230,9 @@ def segment_evidence(x: F, cosine: F, sine: F, constant: F, half: F, bins: int, 
                 for d in range(orders):
                     for b in range(here):
                         out[d, first + b, n] = values[d, b]
-    return lost
+        if lost:
+            return True
+    return False
 
 
 @helper

@@ -21,6 +21,7 @@ _WORDS = ("{", "}", "ROOT", "JOINT", "END", "OFFSET", "CHANNELS", "MOTION")
 _CHANNEL_OF = {name.lower(): name for name in _CHANNELS}
 # Angles and lengths beyond this are broken numbers, for which a sine has no digits left.
 _LARGEST = 1e9
+_MOST_JOINTS = 5000
 _DIGITS = set("0123456789+-.eE \t")
 
 
@@ -122,6 +123,7 @@ def _parse_hierarchy(lines: list[str]) -> tuple[Hierarchy, int]:
     offsets: list[list[float] | None] = []
     channels: list[tuple[str, ...] | None] = []
     open_joints: list[int] = []
+    ends: dict[int, int] = {}  # end sites of each joint
     words = _Words(lines)
     while True:
         word = words.take()
@@ -138,8 +140,11 @@ def _parse_hierarchy(lines: list[str]) -> tuple[Hierarchy, int]:
             parent = open_joints[-1] if open_joints else -1
             name = _joint_name(words, keyword)
             if keyword == "END":
-                name = _end_name(joints, parent)
+                ends[parent] = ends.get(parent, 0) + 1
+                name = f"{joints[parent]}_end" + (f"_{ends[parent]}" if ends[parent] > 1 else "")
             words.take_brace(f"{word} {name}")
+            if len(joints) >= _MOST_JOINTS:
+                raise _broken(words.line, f"more than {_MOST_JOINTS} joints", "a skeleton")
             open_joints.append(len(joints))
             joints.append(name)
             parents.append(parent)
@@ -172,12 +177,6 @@ def _joint_name(words: _Words, keyword: str) -> str:
     if not parts:
         raise _broken(line, f"{keyword} without a name", "a name")
     return " ".join(parts)
-
-
-def _end_name(joints: list[str], parent: int) -> str:
-    name = f"{joints[parent]}_end"
-    count = sum(joint == name or joint.startswith(f"{name}_") for joint in joints)
-    return f"{name}_{count + 1}" if count and joints[parent + 1 :].count(name) else name
 
 
 def _channel_names(words: _Words) -> tuple[str, ...]:

@@ -15,12 +15,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
 from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
 from signkin.io.registry import SourceMotion, motion_reader
-from signkin.io.text import content_of
+from signkin.io.text import content_of, encoding_of
 
 _NO_POSITIONS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 
@@ -32,10 +31,11 @@ def read_c3d(
     joints: Mapping[str, str] | None = None,
     part: str | None = None,
     incomplete: bool = False,
+    encoding: str = "utf-8",
 ) -> SourceMotion:
     """Read the points of a C3D file: labels by name, of the subject `part` where there are several.
 
-    incomplete: read a file of fewer frames than its header promises.
+    incomplete: read a file of fewer frames than its header promises. encoding: of the labels.
     """
     try:
         import c3d
@@ -48,7 +48,7 @@ def read_c3d(
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             reader = c3d.Reader(io.BytesIO(content))
-            labels, about = _about(reader)
+            labels, about = _about(reader, encoding_of(b"", encoding))
             _check_size(reader, len(content), incomplete)
             frames = [points for _, points, _ in reader.read_frames()]
             first = int(reader.first_frame)
@@ -97,35 +97,49 @@ def read_c3d(
 class _About:
     """Rate and unit of the points, and the labels that are no positions."""
 
-    def __init__(self, reader: Any) -> None:
+    def __init__(self, reader: Any, encoding: str) -> None:
         rate = float(reader.point_rate)
         self.rate_hz = float(str(np.float32(rate)))
-        units = _strings(reader, "POINT.UNITS")
+        units = _strings(reader, "POINT.UNITS", encoding)
         self.unit = unit_of(units[0][:4]) if units else None
         self.no_positions = {
-            label for key in _NO_POSITIONS for label in _strings(reader, f"POINT.{key}") if label
+            label
+            for key in _NO_POSITIONS
+            for label in _strings(reader, f"POINT.{key}", encoding)
+            if label
         }
 
 
-def _about(reader: Any) -> tuple[list[str], _About]:
-    labels = _strings(reader, "POINT.LABELS")
+def _about(reader: Any, encoding: str) -> tuple[list[str], _About]:
+    labels = _strings(reader, "POINT.LABELS", encoding)
     more = 2
-    while _strings(reader, f"POINT.LABELS{more}"):  # a parameter holds 255 labels
-        labels += _strings(reader, f"POINT.LABELS{more}")
+    while _strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
+        labels += _strings(reader, f"POINT.LABELS{more}", encoding)
         more += 1
     used = int(reader.point_used)
     labels = [*labels, *(f"*{i}" for i in range(len(labels), used))][:used]
-    return labels, _About(reader)
+    return labels, _About(reader, encoding)
 
 
-def _strings(reader: Any, key: str) -> list[str]:
+def _strings(reader: Any, key: str, encoding: str) -> list[str]:
     parameter = reader.get(key)
     if parameter is None or not len(parameter.bytes):
         return []
-    if len(parameter.dimensions) < 2:
-        return [str(parameter.string_value).strip()]
-    found: NDArray[np.str_] = np.asarray(parameter.string_array).ravel()
-    return [str(text).strip() for text in found]
+    content = bytes(parameter.bytes)
+    sizes = [int(size) for size in parameter.dimensions]
+    width = sizes[0] if len(sizes) > 1 else len(content)
+    try:
+        return [
+            content[at : at + width].decode(encoding).strip(" \0")
+            for at in range(0, len(content), max(width, 1))
+        ]
+    except UnicodeDecodeError as error:
+        raise SignkinError(
+            f"the labels are not {encoding.upper()}",
+            place=key.replace(".", ":"),
+            expected="text in UTF-8",
+            todo="Declare what they are written in, e.g. options: {encoding: latin-1}.",
+        ) from error
 
 
 def _promised(reader: Any) -> int:

@@ -107,12 +107,7 @@ def _blank(
     positions: NDArray[np.float64], points: Points, missing: Sequence[float], threshold: float
 ) -> None:
     """Make gaps, in place, of points that have a missing value or too little confidence."""
-    if isinstance(threshold, bool) or not isinstance(threshold, int | float):
-        raise SignkinError(
-            f"the threshold is {quoted(threshold)}",
-            place="options, confidence_threshold",
-            expected="a number",
-        )
+    threshold = threshold_of(threshold)
     for j, joint in enumerate(points.joints):
         dimensions = 2 if points.flat[j] else 3
         for value in missing:
@@ -120,6 +115,17 @@ def _blank(
         trust = points.confidence.get(joint)
         if trust is not None:
             positions[~((trust > 0) & (trust >= threshold)), j] = np.nan
+
+
+def threshold_of(value: Any) -> float:
+    """Return a declared threshold of confidence, which is a number."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+        raise SignkinError(
+            f"the threshold is {quoted(value)}",
+            place="options, confidence_threshold",
+            expected="a number",
+        )
+    return float(value)
 
 
 def _pixels(image_size: Any) -> NDArray[np.float64]:

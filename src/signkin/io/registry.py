@@ -9,6 +9,7 @@ A format is one file in this folder: it registers a function with
 from __future__ import annotations
 
 import inspect
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,12 +17,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from signkin.annotation import Annotation, TierWish
 from signkin.annotation_rules import GlossRules, excerpt
 from signkin.clock import FASTEST_HZ, SLOWEST_HZ, no_rate_of_motion
 from signkin.errors import SignkinError, listed
+from signkin.io.axes import axis_basis, turned
 from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
@@ -139,6 +140,7 @@ def read_recording(
     Raises SignkinError with the file and the place in it.
     """
     path = Path(path)
+    part = None if part is None else str(part)
     wanted = _find(_MOTION, path, format, "motion")
     try:
         _check_joint_map(joints)
@@ -148,7 +150,7 @@ def read_recording(
     folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
     source = _guarded(wanted, path, folders, joints=joints, part=part, **options)
     try:
-        _refuse_infinite(source)
+        _check_positions(source)
         scale, final_unit = _scale(source.unit, unit)
         basis = axis_basis(up, right)
         rate, rate_notes = _agreed_rate(source, rate_hz)
@@ -159,7 +161,7 @@ def read_recording(
             positions = source.positions * scale @ basis.T
         orientations = None
         if source.orientations is not None:
-            orientations = _turned(source.orientations, basis)
+            orientations = turned(source.orientations, basis)
         return Recording(
             name=name or (part if part is not None else path.stem),
             rate_hz=rate,
@@ -218,8 +220,12 @@ def _check_options(
         )
 
 
-def _refuse_infinite(source: SourceMotion) -> None:
+def _check_positions(source: SourceMotion) -> None:
     """Refuse what is no coordinate, before the axes are turned: infinity times 0 is a gap."""
+    if len(source.positions) < 2:
+        raise SignkinError(
+            f"{len(source.positions)} frames", place="frames", expected="2 frames or more"
+        )
     with np.errstate(invalid="ignore"):
         bad = np.abs(source.positions) > FURTHEST
     if bad.any():
@@ -304,62 +310,7 @@ def in_file_axes(
         positions = recording.positions @ basis / scale
     if recording.orientations is None:
         return positions, None
-    return positions, _turned(recording.orientations, basis.T)
-
-
-def axis_basis(up: str, right: str) -> NDArray[np.float64]:
-    """Return the rotation (3, 3) that takes file axes to right, forward, up.
-
-    Its rows are the signer's right, forward (up x right) and up, as the file
-    names them; both axes are written `x`, `-y` and so on.
-    """
-    z, x = _axis(up, "up"), _axis(right, "right")
-    if abs(z @ x) > 0:
-        raise SignkinError(
-            f"up is {up} and right is {right}", place="axes", expected="two different axes"
-        )
-    return np.array([x, np.cross(z, x), z])
-
-
-def _axis(text: str, key: str) -> NDArray[np.float64]:
-    name = text.removeprefix("-")
-    if name not in ("x", "y", "z"):
-        raise SignkinError(
-            f"{key} is {text!r}", place="axes", expected="x, y or z, with or without a minus sign"
-        )
-    axis = np.zeros(3)
-    axis["xyz".index(name)] = -1.0 if text.startswith("-") else 1.0
-    return axis
-
-
-def _turned(orientations: NDArray[np.float64], basis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Express rotations of world space in turned axes: R q R^-1."""
-    turn = Rotation.from_matrix(basis)
-    flat = orientations.reshape(-1, 4)
-    out = np.full_like(flat, np.nan)
-    there = ~np.isnan(flat).any(axis=1)
-    if there.any():
-        out[there] = (turn * Rotation.from_quat(flat[there]) * turn.inv()).as_quat()
-    return continuous(out.reshape(orientations.shape))
-
-
-def continuous(quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Choose between q and -q (the same rotation) so that each follows its predecessor smoothly.
-
-    quaternions: (F, J, 4); the first of each joint gets w >= 0. NaN frames are passed over.
-    """
-    out: NDArray[np.float64] = quaternions.copy()
-    for joint in range(out.shape[1]):
-        track = out[:, joint]
-        there = np.flatnonzero(~np.isnan(track).any(axis=1))
-        if not there.size:
-            continue
-        valid = track[there]
-        flips = np.ones(len(there))
-        flips[0] = -1.0 if valid[0, 3] < 0 else 1.0
-        flips[1:] = np.where((valid[1:] * valid[:-1]).sum(axis=1) < 0, -1.0, 1.0)
-        out[there, joint] = valid * np.cumprod(flips)[:, None]
-    return out
+    return positions, turned(recording.orientations, basis.T)
 
 
 def _scale(of_file: str | None, declared: Any) -> tuple[float | NDArray[np.float64], str]:
@@ -429,7 +380,7 @@ def _agreed_rate(source: SourceMotion, declared: Any) -> tuple[float, tuple[str,
     told = of_file if of_file is not None else round(sum(possible or ()) / 2, 6)
     low, high = possible or (told, told)
     slack = RATE_TOLERANCE * rate
-    if low - slack <= rate <= high + slack:
+    if low - rate <= slack and rate - high <= slack:
         return rate, ()
     if overrule:
         return rate, (f"the file says {told:.6g} Hz; overruled by the declared {rate:.6g} Hz",)
@@ -448,7 +399,7 @@ def _find(
     what: str,
 ) -> Any:
     if format is not None:
-        if format not in readers:
+        if not isinstance(format, str) or format not in readers:
             raise SignkinError(
                 f"no reader for the {what} format {quoted(format)}",
                 file=path,
@@ -493,7 +444,7 @@ def pick(
 ) -> tuple[tuple[str, ...], list[int]]:
     """Return canonical names and the file's indices of the wanted joints (None: all)."""
     if wanted is None:
-        twice = sorted({name for name in available if available.count(name) > 1})
+        twice = sorted(name for name, count in Counter(available).items() if count > 1)
         if twice:
             raise _stands_twice(twice)
         return available, list(range(len(available)))
@@ -507,6 +458,14 @@ def pick(
     twice = [name for name in wanted.values() if available.count(name) > 1]
     if twice:
         raise _stands_twice(twice)
+    shared = [name for name, count in Counter(wanted.values()).items() if count > 1]
+    if shared:
+        joints = [joint for joint, name in wanted.items() if name == shared[0]]
+        raise SignkinError(
+            f"{quoted(shared[0])} stands twice, for {' and '.join(joints)}",
+            place="joints",
+            expected="each joint its own place in the file",
+        )
     return tuple(wanted), [available.index(name) for name in wanted.values()]
 
 

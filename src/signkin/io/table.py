@@ -11,6 +11,7 @@ numbers an editor shows.
 from __future__ import annotations
 
 import csv
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -109,7 +110,7 @@ def _parsed(
     also: frozenset[str],
 ) -> pd.DataFrame:
     header, separator, first = _header(path, layout, wanted)
-    doubled = sorted({name for name in header if name and header.count(name) > 1})
+    doubled = {name for name, count in Counter(header).items() if name and count > 1}
     for name in wanted or ():
         if name in doubled:
             raise _stands_twice(name)
@@ -131,7 +132,7 @@ def _parsed(
         header[i]: pd.Series(c, index=index, dtype=object) for i, c in zip(kept, cells, strict=True)
     }
     table = pd.DataFrame(columns, index=index)
-    table.attrs = {"doubled": doubled, "separator": separator, "layout": layout}
+    table.attrs = {"doubled": sorted(doubled), "separator": separator, "layout": layout}
     return table
 
 

@@ -6,6 +6,7 @@ pixels without the image's size, which is to be declared.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import islice
 from pathlib import Path
@@ -16,7 +17,7 @@ import pandas as pd
 
 from signkin.errors import SignkinError, listed
 from signkin.io.landmarks import landmark_names
-from signkin.io.points import Points, refuse_shares, source_motion
+from signkin.io.points import Points, refuse_shares, source_motion, threshold_of
 from signkin.io.registry import SourceMotion, motion_reader, pick
 from signkin.io.table import (
     FIRST_LINE,
@@ -53,6 +54,7 @@ def read_mediapipe_csv(
     confidence_threshold is a gap, and so is a row without its landmarks: the hands' tables write
     what was found first, and of one hand do not say which it is.
     """
+    limit = threshold_of(confidence_threshold)
     if image_size is None:
         raise SignkinError(
             "coordinates from 0 to 1, and no size of the image",
@@ -77,10 +79,10 @@ def read_mediapipe_csv(
     table, short = _body(path, layout, header, [*clock, *titles, *trust.values()], 2, gaps=True)
     points = numbers_of(table, titles).reshape(len(table), len(chosen), 3)
     seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
-    masked = sum(int((values < confidence_threshold).sum()) for values in seen.values())
+    masked = sum(int((values < limit).sum()) for values in seen.values())
     notes = [f"{short} rows without all landmarks are gaps"] if short else []
     if masked:
-        notes.append(f"{masked} points less visible than {confidence_threshold:g} are gaps")
+        notes.append(f"{masked} points less visible than {limit:g} are gaps")
     return source_motion(
         Points(
             joints=canonical,
@@ -125,7 +127,8 @@ def read_openpose_csv(
             f"{width} columns", place="line 1", expected="three for each point: x, y, confidence"
         )
     names = landmark_names(landmarks, (width + 1) // 3)
-    canonical, chosen = pick(names, joints)
+    places = None if joints is None else {joint: str(place) for joint, place in joints.items()}
+    canonical, chosen = pick(names, places)
     header = [str(i) for i in range(width)]
     titles = [str(3 * i + axis) for i in chosen for axis in (0, 1)]
     trust = {n: str(3 * i + 2) for n, i in zip(canonical, chosen, strict=True) if 3 * i + 2 < width}
@@ -161,6 +164,7 @@ def read_deeplabcut_csv(
     Header rows scorer, individuals (where there are several; `part` picks one), bodyparts, coords;
     rows are frames, numbered, or named by image. Less likely than confidence_threshold is a gap.
     """
+    limit = threshold_of(confidence_threshold)
     layout = Layout("comma")
     rows = _header(path, layout, 4)
     titles = [row[0].lower() for row in rows]
@@ -206,8 +210,8 @@ def read_deeplabcut_csv(
     positions = np.zeros((len(table), len(chosen), 3))
     positions[..., : len(axes)] = numbers_of(table, wanted).reshape(len(table), len(chosen), -1)
     seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
-    masked = sum(int((values < confidence_threshold).sum()) for values in seen.values())
-    note = f"{masked} points less likely than {confidence_threshold:g} are gaps"
+    masked = sum(int((values < limit).sum()) for values in seen.values())
+    note = f"{masked} points less likely than {limit:g} are gaps"
     return source_motion(
         Points(
             joints=canonical,
@@ -237,7 +241,8 @@ def _check_index(table: pd.DataFrame) -> None:
 
 def _once(names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int]]:
     """Return the names that stand once: of two columns of a name it is not known which is meant."""
-    kept = [i for i, name in enumerate(names) if names.count(name) == 1]
+    counts = Counter(names)
+    kept = [i for i, name in enumerate(names) if counts[name] == 1]
     return tuple(names[i] for i in kept), kept
 
 

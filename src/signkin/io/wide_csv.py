@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from signkin.clock import SECONDS_PER, clock_of
 from signkin.errors import SignkinError, listed
 from signkin.io.points import Points, source_motion
 from signkin.io.registry import SourceMotion, motion_reader
@@ -49,7 +50,8 @@ NOISE_PER_DIGIT = 1000
 _FRAMES = ("frame", "frames", "frame_number", "frame#", "frame_no", "frame_id", "frame_index")
 _OWNERS = ("person", "person_id", "subject", "participant", "signer", "individual", "track_id",
            "video", "take", "recording", "trial", "session", "clip")  # fmt: skip
-_TELLING = frozenset({*_FRAMES, *_OWNERS})
+_TIMES = ("time", "times", "t", "time_s", "time_ms", "timestamp", "timestamps", "seconds")
+_TELLING = frozenset({*_FRAMES, *_OWNERS, *_TIMES})
 
 
 @motion_reader("csv", suffixes=(".csv", ".tsv"))
@@ -121,8 +123,10 @@ def read_wide_csv(
     for column, (j, axis) in enumerate(places):
         positions[:, j, axis] = numbers[:, column]
     times = None if time_column is None else column_numbers(rows, time_column)
+    possible = None if time_column is not None else _undeclared_rate(rows)
     return source_motion(
         Points(
+            rate_range=possible,
             joints=tuple(of_joint),
             positions=positions,
             flat=tuple(len(columns) == 2 for columns in of_joint.values()),
@@ -145,7 +149,7 @@ def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
 
     A person or take that changes, and frame numbers that do not rise evenly.
     """
-    telling = [column for column in rows.columns if column.lower() in _TELLING]
+    telling = [column for column in rows.columns if column.lower() in (*_OWNERS, *_FRAMES)]
     telling.sort(key=lambda column: column.lower() in _FRAMES)  # whose frames they are comes first
     for column in telling:
         if column in declared:
@@ -171,6 +175,26 @@ def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
                 expected="frames that rise evenly, or several recordings that are told apart",
                 todo=f"Declare options: {{frame_column: {column}}}, or recording_column.",
             )
+
+
+def _undeclared_rate(rows: pd.DataFrame) -> tuple[float, float] | None:
+    """Return the rates that an undeclared column of times leaves possible, None without such.
+
+    Its unit is the one of s, ms, us and ns under which the times are those of motion.
+    """
+    for column in rows.columns:
+        cells = [number(cell.strip()) for cell in rows[column]] if column.lower() in _TIMES else []
+        times = np.array([cell for cell in cells if cell is not None])
+        if len(times) < 2 or len(times) < len(cells):
+            continue
+        for step in SECONDS_PER.values():
+            try:
+                half = printed_half_digit(rows, column) * step
+                clock = clock_of(times * step, column, half)
+            except SignkinError:
+                continue
+            return clock.rate_range
+    return None
 
 
 def missing_texts(missing: Any) -> tuple[str, ...]:

@@ -25,6 +25,8 @@ def ledger_of(
     return Ledger(
         pd.concat([part.claims for part in parts], ignore_index=True),
         pd.concat([part.checks for part in parts], ignore_index=True),
+        tuple(fault for part in parts for fault in part.faults),
+        pd.concat([part.details for part in parts], ignore_index=True),
     )
 
 

@@ -139,7 +139,7 @@ def _annotation(
     annotation = read_annotation(path, **spec)
     try:
         annotation = _one_line_of_signs(corpus, entry, annotation)
-        if not _of_role(corpus, entry, annotation, "sign"):
+        if not of_role(corpus, entry, annotation, "sign"):
             raise SignkinError("no sign", place="key annotation", expected="one or more")
         # Annotators tag video, whose last frame may end one frame after the motion does.
         annotation.refuse_past(recording.duration_s, 1.0 / recording.rate_hz)
@@ -168,13 +168,14 @@ def _interval_rows(
             "end_s": interval.end_s,
         }
         for role in corpus.tiers
-        for interval in _of_role(corpus, entry, annotation, role)
+        for interval in of_role(corpus, entry, annotation, role)
     ]
 
 
-def _of_role(
+def of_role(
     corpus: Corpus, entry: Entry, annotation: Annotation, role: str
 ) -> tuple[Interval, ...]:
+    """Return the intervals of a role (`sign`), of all hands, in order of time."""
     by_hand = corpus.tiers_of(entry)[role]
     return tuple(sorted(interval for wish in by_hand.values() for interval in annotation.of(wish)))
 

@@ -14,7 +14,7 @@ from signkin.corpus import Corpus, Entry
 from signkin.errors import SignkinError
 from signkin.joints import HANDS
 from signkin.recording import Recording
-from signkin.stages.ingest import read_entry
+from signkin.stages.ingest import of_role, read_entry
 from signkin.survey.motion import SIDES, SWAPPED, TEMPO_HZ, motion_notices, noise_sd
 from signkin.survey.notices import LEVELS, Notice, judged
 from signkin.survey.tags import tag_notices
@@ -67,7 +67,7 @@ def look_at(corpus: Corpus, folder: Path, most: int | None = None) -> Look:
         lead = {"corpus": corpus.name, "recording": entry.recording, "signer": entry.signer}
         try:
             recording, annotation = read_entry(corpus, folder, entry)
-            signs = annotation.tier(corpus.tiers["sign"]) if annotation else ()
+            signs = of_role(corpus, entry, annotation, "sign") if annotation else ()
             notices = motion_notices(recording)
             if corpus.tagged:
                 notices += tag_notices(recording, signs)

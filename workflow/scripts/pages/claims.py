@@ -5,6 +5,7 @@ with job(snakemake):
 
     from signkin import tables
     from signkin.audit.paper import read_paper
+    from signkin.errors import SignkinError
     from signkin.pages.ledger import ledger_of
 
     out = snakemake.output
@@ -14,5 +15,7 @@ with job(snakemake):
         [Path(file) for file in snakemake.input],
         Path(out.claims).parents[1],
     )
+    for fault in ledger.faults:  # a run does not go on with claims left out
+        raise SignkinError(fault)
     tables.write_table(ledger.claims, out.claims, "claims")
     tables.write_table(ledger.checks, out.checks, "checks")

@@ -24,8 +24,10 @@ from signkin.coarticulation.duration import (
     simple_weight,
 )
 from signkin.errors import SignkinError
+from signkin.settings.sections import Durations
 from signkin.statistics import association
 from signkin.statistics.findings import joined
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.transitions import counted
 
 MODELS = ("MEAN", "SIMPLE", "SIMPLE_BOUNDED", "LINEAR", "SURFACE", "SURFACE_PRINTED")
@@ -60,7 +62,7 @@ class Learnable:
 
 
 def learnable(
-    transitions: pd.DataFrame, speeds: pd.DataFrame, unit: str, settings: Mapping[str, Any]
+    transitions: pd.DataFrame, speeds: pd.DataFrame, unit: str, settings: DurationSettings
 ) -> Learnable:
     """Return the transitions between manual tags that all testable models can use."""
     rows = counted(transitions).merge(
@@ -68,9 +70,9 @@ def learnable(
         on=["corpus", "recording", "signer", "transition"],
         validate="one_to_one",
     )
-    scale = settings["transitions"]["euclidean_unit_m"] if unit == "m" else 1.0
+    scale = settings.transitions.euclidean_unit_m if unit == "m" else 1.0
     name = f"{scale:g} m" if unit == "m" else "px"
-    angle = 1.0 if settings["durations"]["simple_angle"] == "half" else 2.0
+    angle = 1.0 if settings.durations.simple_angle == "half" else 2.0
     sides = ("previous", "next")
     linear = [f"{side}_linear_speed_{unit}_per_s" for side in sides]
     angular = [f"{side}_angular_speed_rad_per_s" for side in sides]
@@ -102,15 +104,15 @@ def learnable(
 
 
 def makers(
-    settings: Mapping[str, Any], constants: Mapping[str, str], geodesic: bool
+    settings: DurationSettings, constants: Mapping[str, str], geodesic: bool
 ) -> dict[str, Callable[[], DurationModel]]:
     """Return how each model is made. constants: numbers printed in the paper, as strings.
 
     geodesic: whether the corpus has this distance.
     """
-    chosen = settings["durations"]
-    alpha = simple_weight(chosen["simple_alpha"], geodesic)
-    bounds = {"low_s": chosen["lowest_s"], "high_s": chosen["highest_s"]}
+    chosen = settings.durations
+    alpha = simple_weight(chosen.simple_alpha, geodesic)
+    bounds = {"low_s": chosen.lowest_s, "high_s": chosen.highest_s}
     printed = np.array([float(constants[f"theta_{term}"]) for term in TERMS])
     return {
         "MEAN": MeanDuration,
@@ -125,12 +127,12 @@ def makers(
 def models(
     corpus: str,
     learn: Learnable,
-    settings: Mapping[str, Any],
+    settings: DurationSettings,
     constants: Mapping[str, str],
     seed: int,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the tables `duration_models` and `duration_predictions`."""
-    chosen = settings["durations"]
+    chosen = settings.durations
     errors, predicted = [], []
     baseline: dict[str, np.ndarray] = {}
     recordings = list(learn.rows["recording"])
@@ -182,18 +184,18 @@ def _errors(
     baseline: np.ndarray,
     learn: Learnable,
     recordings: list[str],
-    chosen: Mapping[str, Any],
+    chosen: Durations,
     rng: np.random.Generator,
 ) -> dict[str, float]:
     residual = found - learn.data.duration_s
-    units, _ = association.resampled_units(recordings, chosen["bootstrap_recordings"])
+    units, _ = association.resampled_units(recordings, chosen.bootstrap_recordings)
     absolute, too_long = np.abs(residual), _too_long(residual)
     parts = (absolute, baseline - absolute, residual, too_long)
 
     def means(rows: np.ndarray) -> np.ndarray:
         return np.array([part[rows].mean() for part in parts])
 
-    low, high = association.bootstrap(means, units, chosen["draws"], chosen["alpha"], rng)
+    low, high = association.bootstrap(means, units, chosen.draws, chosen.alpha, rng)
     measured = {
         "mean_error_s": absolute.mean(),
         "mean_error_low_s": low[0],
@@ -209,7 +211,7 @@ def _errors(
         "share_too_long_low": low[3],
         "share_too_long_high": high[3],
         "longest_s": found.max(),
-        "share_above_bound": (found > chosen["highest_s"] + 1e-12).mean(),
+        "share_above_bound": (found > chosen.highest_s + 1e-12).mean(),
     }
     # A bias of least squares is 0 but for rounding.
     return {name: round(float(value), 12) for name, value in measured.items()}

@@ -9,6 +9,8 @@ from typing import Any
 import pandas as pd
 
 from signkin.report.page import FigureView, TableView
+from signkin.settings.sections import Durations
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.tables import read_table
 
 SIMULATED = " Simulated: the durations carry the printed Table 2; it is a test of the method only."
@@ -16,7 +18,7 @@ SIMULATED = " Simulated: the durations carry the printed Table 2; it is a test o
 
 def duration_views(
     folder: Path,
-    config: Mapping[str, Any],
+    settings: DurationSettings,
     constants: Mapping[str, str],
     exhibit: Mapping[str, str],
     simulated: bool,
@@ -27,7 +29,7 @@ def duration_views(
     exhibit: the entry fig11 of exhibits.yaml.
     """
     warning = SIMULATED if simulated else ""
-    chosen = config["durations"]
+    chosen = settings.durations
     yield from _statistics(folder / "statistics.csv", chosen, warning)
     models = read_table(folder / "duration_models.csv", "duration_models")
     yield _models(folder, models, chosen, constants, warning)
@@ -39,7 +41,7 @@ def duration_views(
         files=[folder / f"fig_durations{suffix}" for suffix in (".svg", ".pdf", ".csv")],
     )
     coefficients = read_table(folder / "duration_coefficients.csv", "duration_coefficients")
-    yield _coefficients(folder, coefficients, chosen, config, warning)
+    yield _coefficients(folder, coefficients, chosen, settings, warning)
     if (folder / "fig11.svg").exists():
         yield FigureView(
             label=exhibit["label"],
@@ -77,7 +79,7 @@ def _columns(*names: str) -> dict[str, tuple[str, str]]:
     return {name: STATISTICS_COLUMNS[name] for name in names}
 
 
-def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator[TableView]:
+def _statistics(path: Path, chosen: Durations, warning: str) -> Iterator[TableView]:
     frame = read_table(path, "statistics")
     yield _words(path, frame[frame["kind"] == "words"], chosen, warning)
     rest = frame[frame["kind"] != "words"]
@@ -93,15 +95,15 @@ def _statistics(path: Path, chosen: Mapping[str, Any], warning: str) -> Iterator
     yield _distance(path, rest[distance], chosen, warning)
 
 
-def _words(path: Path, words: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+def _words(path: Path, words: pd.DataFrame, chosen: Durations, warning: str) -> TableView:
     return TableView(
         label="",
         title="Do durations differ by type, and with distance? In words",
         caption="Section 5.1 says that hands and symmetry 'do not significantly impact' the "
         "duration, and gives no test. That is no evidence of no effect, so equivalence is tested "
-        f"too: two means count as the same within ± {chosen['equivalence_s']:g} s (a choice, see "
+        f"too: two means count as the same within ± {chosen.equivalence_s:g} s (a choice, see "
         "docs/interpretations.md). By Welch's ANOVA (type, change of hands) and type II sums of "
-        f"squares (two factors), level {chosen['alpha']:g}, corrected by Holm for all deciding "
+        f"squares (two factors), level {chosen.alpha:g}, corrected by Holm for all deciding "
         "tests of a corpus: all ask whether the types of signs matter. Symmetry is that of "
         "two-handed signs only. "
         f"Transitions between manual tags, whole body, overlapping signs left out.{warning}",
@@ -117,17 +119,17 @@ def _words(path: Path, words: pd.DataFrame, chosen: Mapping[str, Any], warning: 
     )
 
 
-def _level(chosen: Mapping[str, Any]) -> str:
-    return f"{1 - chosen['alpha']:.0%}"
+def _level(chosen: Durations) -> str:
+    return f"{1 - chosen.alpha:.0%}"
 
 
-def _tests(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+def _tests(path: Path, rows: pd.DataFrame, chosen: Durations, warning: str) -> TableView:
     return TableView(
         label="",
         title="Tests of duration by sign type",
-        caption=f"Durations in s; intervals {_level(chosen)} (TOST: {1 - 2 * chosen['alpha']:.0%})"
+        caption=f"Durations in s; intervals {_level(chosen)} (TOST: {1 - 2 * chosen.alpha:.0%})"
         ". Eta and omega squared estimate the same share of variance and have its interval. Power: "
-        f"to find Cohen's f = {chosen['effect_f']:g} with this n (TOST: to show equivalence of "
+        f"to find Cohen's f = {chosen.effect_f:g} with this n (TOST: to show equivalence of "
         "equal means). A dash is a number that the test does not have, or that the note says is "
         f"missing.{warning}",
         frame=rows,
@@ -140,14 +142,14 @@ def _tests(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: s
     )  # fmt: skip
 
 
-def _pairs(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+def _pairs(path: Path, rows: pd.DataFrame, chosen: Durations, warning: str) -> TableView:
     small = rows.sort_values(["test", "p"], kind="stable")
     return TableView(
         label="",
         title="Pairs of types",
         caption=f"Tukey's HSD and Games-Howell, p adjusted for all pairs of a test; "
-        f"{int((small['p'] < chosen['alpha']).sum())} of {int(small['p'].notna().sum())} rows "
-        f"below {chosen['alpha']:g}. Smallest p first; difference of the means in s, Cohen's d "
+        f"{int((small['p'] < chosen.alpha).sum())} of {int(small['p'].notna().sum())} rows "
+        f"below {chosen.alpha:g}. Smallest p first; difference of the means in s, Cohen's d "
         f"with its {_level(chosen)} interval.{warning}",
         frame=small,
         columns=_columns("outliers", "test", "comparison", "statistic", "p", "sized", "n", "note"),
@@ -156,12 +158,12 @@ def _pairs(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: s
     )
 
 
-def _distance(path: Path, rows: pd.DataFrame, chosen: Mapping[str, Any], warning: str) -> TableView:
+def _distance(path: Path, rows: pd.DataFrame, chosen: Durations, warning: str) -> TableView:
     return TableView(
         label="",
         title="Duration and distance",
         caption=f"Pearson's and Spearman's correlation with {_level(chosen)} bootstrap intervals "
-        f"({chosen['draws']} draws); the isochrony exponent b of duration = a · distance^b; the "
+        f"({chosen.draws} draws); the isochrony exponent b of duration = a · distance^b; the "
         f"share of transitions in the diamond of Fig. 8.{warning}",
         frame=rows,
         columns=_columns(
@@ -198,7 +200,7 @@ def _power(row: Any) -> str:
 def _models(
     folder: Path,
     frame: pd.DataFrame,
-    chosen: Mapping[str, Any],
+    chosen: Durations,
     constants: Mapping[str, str],
     warning: str,
 ) -> TableView:
@@ -211,7 +213,7 @@ def _models(
         f"{constants['mean_error']} s); left out: each transition, or each recording, predicted by "
         "a model that learnt from the others. Gain: how much smaller the mean error is than that "
         "of the mean duration (MEAN), with its bootstrap interval; at or below 0 the model is of "
-        f"no use. SIMPLE: alpha = {chosen['simple_alpha']:g} (not printed).{warning}",
+        f"no use. SIMPLE: alpha = {chosen.simple_alpha:g} (not printed).{warning}",
         frame=shown,
         columns={
             "model": ("model", ""),
@@ -227,7 +229,7 @@ def _models(
             "bias_low_s": ("low", "+.4f"),
             "bias_high_s": ("high", "+.4f"),
             "share_too_long": ("too long", ".0%"),
-            "share_above_bound": (f"above {chosen['highest_s']:g} s", ".0%"),
+            "share_above_bound": (f"above {chosen.highest_s:g} s", ".0%"),
             "note": ("note", ""),
         },
         file=folder / "duration_models.csv",
@@ -253,17 +255,17 @@ def _predictions_caption(models: pd.DataFrame, warning: str) -> str:
 def _coefficients(
     folder: Path,
     frame: pd.DataFrame,
-    chosen: Mapping[str, Any],
-    config: Mapping[str, Any],
+    chosen: Durations,
+    settings: DurationSettings,
     warning: str,
 ) -> TableView:
-    level = f"{1 - chosen['alpha']:.0%}"
+    level = f"{1 - chosen.alpha:.0%}"
     return TableView(
         label="",
         title="Coefficients of LINEAR and SURFACE",
         caption=f"Least squares on {int(frame['n'].max())} transitions; {level} intervals by "
-        f"Student's t and by bootstrap ({chosen['draws']} draws). Euclidean distances in units of "
-        f"{config['transitions']['euclidean_unit_m']:g} m where the corpus is in metres. The paper "
+        f"Student's t and by bootstrap ({chosen.draws} draws). Euclidean distances in units of "
+        f"{settings.transitions.euclidean_unit_m:g} m where the corpus is in metres. The paper "
         f"prints theta of SURFACE for its own corpus.{warning}",
         frame=frame,
         columns={

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from signkin import seeds, tables
+from signkin.settings.sections import Durations
 from signkin.statistics import anova, association, equivalence, mixed, posthoc, power
 from signkin.statistics.descriptive import hand_change, outliers
 from signkin.statistics.findings import Finding, Kind, grouped, table, untestable
 from signkin.statistics.multiplicity import holm
 from signkin.studies.naert2017.distances import with_flags
 from signkin.studies.naert2017.durations_words import Question, in_words, isochrony_in_words
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.transitions import counted
 
 NO_TYPE = "no sign has a type"
@@ -41,14 +42,14 @@ DECIDES = {(anova.WELCH, anova.ETA), (anova.TYPE_2, anova.PARTIAL_ETA)}
 
 
 def statistics(
-    corpus: str, transitions: pd.DataFrame, unit: str, settings: Mapping[str, Any], seed: int
+    corpus: str, transitions: pd.DataFrame, unit: str, settings: DurationSettings, seed: int
 ) -> pd.DataFrame:
-    """Return the table `statistics`. settings: config.yaml (transitions, durations)."""
+    """Return the table `statistics`."""
     rows = counted(transitions)
     typed = rows[rows["type"] != ""]
-    chosen = settings["durations"]
+    chosen = settings.durations
     parts = []
-    for label, kept in _with_and_without_outliers(typed, settings["transitions"]["outlier_iqr"]):
+    for label, kept in _with_and_without_outliers(typed, settings.transitions.outlier_iqr):
         inferred = int((kept["type_source"] == "kinematic").sum())
         for question, findings in _corrected(_type_questions(kept, chosen)).items():
             told = [*findings, in_words(question, findings, len(kept), inferred, chosen)]
@@ -79,7 +80,7 @@ def _with_and_without_outliers(
 # --- types -----------------------------------------------------------------------------------
 
 
-def _type_questions(rows: pd.DataFrame, chosen: Mapping[str, Any]) -> dict[Question, list[Finding]]:
+def _type_questions(rows: pd.DataFrame, chosen: Durations) -> dict[Question, list[Finding]]:
     """Return the findings of each question about types."""
     if not len(rows):
         return {
@@ -87,7 +88,7 @@ def _type_questions(rows: pd.DataFrame, chosen: Mapping[str, Any]) -> dict[Quest
             for q in (TYPE, CHANGE)
         }
     durations = rows["duration_s"].to_numpy(dtype=float)
-    alpha, bound = chosen["alpha"], chosen["equivalence_s"]
+    alpha, bound = chosen.alpha, chosen.equivalence_s
     digits = [rows["type"].str[i].to_numpy(dtype=object) for i in range(4)]
     changes = rows["type"].map(hand_change)
     found = {
@@ -121,27 +122,27 @@ def _groups(
     durations: np.ndarray,
     rows: pd.DataFrame,
     labels: pd.Series,
-    chosen: Mapping[str, Any],
+    chosen: Durations,
 ) -> list[Finding]:
     groups = grouped(durations, labels)
-    alpha = chosen["alpha"]
+    alpha = chosen.alpha
     data = rows[["duration_s", "signer", "recording"]].assign(group=labels)
     return [
-        *anova.one_way(groups, name, alpha, chosen["effect_f"]),
+        *anova.one_way(groups, name, alpha, chosen.effect_f),
         *mixed.mixed_model(data, name),
         *posthoc.pairwise(groups, name, alpha),
-        *power.sensitivity(groups, name, alpha, chosen["power"]),
-        equivalence.omnibus(groups, name, chosen["equivalence_s"], alpha),
+        *power.sensitivity(groups, name, alpha, chosen.power),
+        equivalence.omnibus(groups, name, chosen.equivalence_s, alpha),
     ]
 
 
 def _smallest_differences(
-    groups: Mapping[str, np.ndarray], name: str, chosen: Mapping[str, Any]
+    groups: Mapping[str, np.ndarray], name: str, chosen: Durations
 ) -> list[Finding]:
     labels = list(groups)
     return [
         power.sensitivity_of_two(
-            groups[a], groups[b], f"{name}: {a} - {b}", chosen["alpha"], chosen["power"], (a, b)
+            groups[a], groups[b], f"{name}: {a} - {b}", chosen.alpha, chosen.power, (a, b)
         )
         for i, a in enumerate(labels)
         for b in labels[i + 1 :]
@@ -154,11 +155,11 @@ def _factors(
     before: np.ndarray,
     after: np.ndarray,
     labels: tuple[str, str],
-    chosen: Mapping[str, Any],
+    chosen: Durations,
 ) -> list[Finding]:
-    alpha = chosen["alpha"]
+    alpha = chosen.alpha
     out = anova.factorial(
-        durations, before, after, (f"{name} before", f"{name} after"), alpha, chosen["effect_f"]
+        durations, before, after, (f"{name} before", f"{name} after"), alpha, chosen.effect_f
     )
     for side, digit in (("before", before), ("after", after)):
         out += _two_groups(f"{name} {side}", durations, digit, labels, chosen)
@@ -170,19 +171,17 @@ def _two_groups(
     durations: np.ndarray,
     digits: np.ndarray,
     labels: tuple[str, str],
-    chosen: Mapping[str, Any],
+    chosen: Durations,
 ) -> list[Finding]:
     """Compare two groups, by whether a digit is 0 (the first label)."""
     groups = grouped(durations, np.where(digits == "0", *labels))
     return [
         *_smallest_differences(groups, title, chosen),
-        *equivalence.tost_pairs(groups, title, chosen["equivalence_s"], chosen["alpha"]),
+        *equivalence.tost_pairs(groups, title, chosen.equivalence_s, chosen.alpha),
     ]
 
 
-def _symmetry(
-    durations: np.ndarray, digits: list[np.ndarray], chosen: Mapping[str, Any]
-) -> list[Finding]:
+def _symmetry(durations: np.ndarray, digits: list[np.ndarray], chosen: Durations) -> list[Finding]:
     """Return the findings about symmetry, which only two-handed signs have (5.1).
 
     Both signs have to be two-handed to be crossed; for one side, the sign on that side.
@@ -191,8 +190,8 @@ def _symmetry(
     both = two[0] & two[1]
     names = (f"{SYMMETRY.name} before", f"{SYMMETRY.name} after")
     crossed = anova.factorial(
-        durations[both], digits[1][both], digits[3][both], names, chosen["alpha"],
-        chosen["effect_f"],
+        durations[both], digits[1][both], digits[3][both], names, chosen.alpha,
+        chosen.effect_f,
     )  # fmt: skip
     out = [f.noted(_not_two_handed(both, "a sign that is not two-handed")) for f in crossed]
     for name, held, digit, side in zip(
@@ -244,10 +243,10 @@ def _plans(unit: str) -> list[_Plan]:
 
 
 def _distances(
-    transitions: pd.DataFrame, unit: str, settings: Mapping[str, Any], rng: np.random.Generator
+    transitions: pd.DataFrame, unit: str, settings: DurationSettings, rng: np.random.Generator
 ) -> list[Finding]:
-    chosen = settings["durations"]
-    alpha = chosen["alpha"]
+    chosen = settings.durations
+    alpha = chosen.alpha
     out: list[Finding] = []
     exponents: dict[str, Finding] = {}
     for plan in _plans(unit):
@@ -256,8 +255,8 @@ def _distances(
         x, y = (there[c].to_numpy(dtype=float) for c in (plan.column, "duration_s"))
         left = f"{len(rows) - len(there)} without this distance" if len(rows) > len(there) else ""
         found = association.correlations(
-            x, y, list(there["recording"]), plan.title, alpha, chosen["draws"],
-            chosen["bootstrap_recordings"], rng,
+            x, y, list(there["recording"]), plan.title, alpha, chosen.draws,
+            chosen.bootstrap_recordings, rng,
         )  # fmt: skip
         if plan.column != "mean_distance":
             exponent = association.isochrony(x, y, plan.title, alpha)
@@ -270,8 +269,8 @@ def _distances(
         out = holm(out, lambda f, test=test: f.test == test)  # type: ignore[misc]
     points, _ = with_flags(
         transitions,
-        settings["transitions"]["outlier_iqr"],
-        settings["transitions"]["diamond_share"],
+        settings.transitions.outlier_iqr,
+        settings.transitions.diamond_share,
     )
     held = points.loc[points["mean_distance"].notna(), "in_diamond"].to_numpy(dtype=bool)
     out.append(association.share(held, "share in the diamond (Fig. 8)", "all", alpha))

@@ -12,14 +12,16 @@ from scipy import stats
 from signkin import seeds, tables
 from signkin.coarticulation.duration import LINEAR_TERMS, TERMS, LinearDuration, SurfaceDuration
 from signkin.errors import SignkinError
+from signkin.settings.sections import Durations
 from signkin.statistics import association
 from signkin.studies.naert2017.durations_models import Learnable
+from signkin.studies.naert2017.settings import DurationSettings
 
 
 def coefficients(
     corpus: str,
     learn: Learnable,
-    settings: Mapping[str, Any],
+    settings: DurationSettings,
     constants: Mapping[str, str],
     seed: int,
 ) -> pd.DataFrame:
@@ -32,7 +34,7 @@ def coefficients(
         try:
             if name in learn.absent:
                 raise SignkinError(learn.absent[name])
-            values = _coefficients(name, learn, settings["durations"], rng)
+            values = _coefficients(name, learn, settings.durations, rng)
             note = learn.note
         except SignkinError as error:
             values, note = pd.DataFrame(index=range(len(terms))), f"not testable: {error.found}"
@@ -46,15 +48,15 @@ def coefficients(
 
 
 def _coefficients(
-    name: str, learn: Learnable, chosen: Mapping[str, Any], rng: np.random.Generator
+    name: str, learn: Learnable, chosen: Durations, rng: np.random.Generator
 ) -> pd.DataFrame:
     model: LinearDuration | SurfaceDuration
     model = LinearDuration() if name == "LINEAR" else SurfaceDuration()
     model.fit(learn.data)
     freedom = model.n - len(model.theta)
-    half = stats.t.isf(chosen["alpha"] / 2, freedom) * model.standard_error
+    half = stats.t.isf(chosen.alpha / 2, freedom) * model.standard_error
     recordings = list(learn.rows["recording"])
-    units, _ = association.resampled_units(recordings, chosen["bootstrap_recordings"])
+    units, _ = association.resampled_units(recordings, chosen.bootstrap_recordings)
 
     def theta(rows: np.ndarray) -> np.ndarray:
         again = LinearDuration() if name == "LINEAR" else SurfaceDuration()
@@ -64,7 +66,7 @@ def _coefficients(
             return np.full(len(model.theta), np.nan)
         return again.theta
 
-    low, high = association.bootstrap(theta, units, chosen["draws"], chosen["alpha"], rng)
+    low, high = association.bootstrap(theta, units, chosen.draws, chosen.alpha, rng)
     return pd.DataFrame(
         {
             "fitted": model.theta,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from signkin.settings.sections import Durations
 from signkin.statistics import anova, mixed
 from signkin.statistics.findings import Finding, Kind, p_text
 from signkin.statistics.power import spread_text
@@ -37,15 +37,14 @@ def in_words(
     findings: Sequence[Finding],
     n: int,
     inferred: int,
-    chosen: Mapping[str, Any],
+    chosen: Durations,
 ) -> Finding:
     """Say what follows: a difference, equivalence, or neither.
 
     findings: with `p_holm` of those that decide: it is what decides, since several questions ask
     whether the types matter. n: transitions. inferred: those of them with a type from motion.
-    chosen: config's `durations`.
     """
-    alpha = chosen["alpha"]
+    alpha = chosen.alpha
     tests = [f for f in findings if f.decisive]
     if not tests:
         return _words(question.title, n, "nothing can be tested: see the reasons")
@@ -70,10 +69,10 @@ def _verdict(
     findings: Sequence[Finding],
     found: Sequence[Finding],
     contested: bool,
-    chosen: Mapping[str, Any],
+    chosen: Durations,
 ) -> str:
-    bound = chosen["equivalence_s"]
-    same = _equivalence(question, findings, chosen["alpha"], bound)
+    bound = chosen.equivalence_s
+    same = _equivalence(question, findings, chosen.alpha, bound)
     none = "The deciding test finds no difference" if contested else "No difference was found"
     if found:
         told = "; ".join(map(_difference, found))

@@ -16,8 +16,8 @@ from signkin.exhibits import Exhibit, exhibits
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.settings import Settings
-from signkin.settings.legacy import legacy
 from signkin.studies.naert2017.durations_report import duration_views
+from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.synthesis import report as synthesis_report
 from signkin.tables import read_table
 
@@ -110,8 +110,8 @@ def _views(source: Source) -> Iterator[View]:
 def _durations(source: Source, exhibit: Exhibit) -> Iterator[View]:
     told = {"label": exhibit.label, "title": exhibit.title, "differs": exhibit.differs}
     simulated = source.corpus.simulator is not None
-    config = legacy(source.shown.settings)
-    yield from duration_views(source.folder, config, source.shown.constants, told, simulated)
+    chosen = DurationSettings.of(source.shown.settings)
+    yield from duration_views(source.folder, chosen, source.shown.constants, told, simulated)
 
 
 def _unused_glosses(source: Source) -> list[str]:
@@ -201,6 +201,8 @@ def _refinement(source: Source) -> Iterator[TableView | FigureView]:
         "hand": ("hand", ""),
         "measure": ("measure", ""),
         "value": ("manual tags", S3),
+        "low": ("low", S3),
+        "high": ("high", S3),
         "unit": ("unit", ""),
         "chance": ("random tags", S3),
         "chance_low": ("2.5 %", S3),
@@ -213,11 +215,12 @@ def _refinement(source: Source) -> Iterator[TableView | FigureView]:
         title="How the tags lie to the speed minima",
         caption=f"Window {settings.search_window_s:g} s. Chance: {settings.draws} sets of as many "
         "tags, placed at random over the annotated frames of each recording; mean and 95 % of "
-        "the sets.",
+        "the sets. Low, high: 95 % interval of the value, tags taken as independent.",
         frame=read_table(path, "refinement"),
         columns=columns,
         file=path,
     )
+    yield _tag_chance(source)
     base = source.folder / "fig_refinement"
     yield FigureView(
         label="",
@@ -227,6 +230,40 @@ def _refinement(source: Source) -> Iterator[TableView | FigureView]:
         "the band, tags are no nearer to minima than chance has it; below the band, farther.",
         svg=base.with_suffix(".svg"),
         files=figure_files(base, ".svg", ".pdf"),
+    )
+
+
+def _tag_chance(source: Source) -> TableView:
+    path = source.folder / "tag_chance.csv"
+    frame = read_table(path, "tag_chance")
+    window = source.shown.settings.refinement.search_window_s
+    told = frame["window_s"].isna() | ((frame["window_s"] - window).abs() < 1e-9)
+    return TableView(
+        label="",
+        title="Tags against nulls that keep their structure",
+        caption=f"Within stretches of signing, {source.shown.settings.refinement.draws} draws of "
+        "each null: all tags shifted in a circle, signs and gaps permuted, tags anywhere; and what "
+        f"minima without any order would give (Poisson). The share is that within {window:g} s, "
+        "the mean share that over windows from 0.02 to 0.2 s (every window is in the file). p: as "
+        "near or nearer by chance, one-sided; by Holm for both hands, both sets of tags and three "
+        "nulls. Transition: without the first and last tag of a stretch.",
+        frame=frame[told],
+        columns={
+            "hand": ("hand", ""),
+            "tags": ("tags", ""),
+            "null": ("null", ""),
+            "measure": ("measure", ""),
+            "value": ("manual tags", S3),
+            "chance": ("chance", S3),
+            "chance_low": ("2.5 %", S3),
+            "chance_high": ("97.5 %", S3),
+            "p": ("p", S3),
+            "p_holm": ("p (Holm)", S3),
+            "n": ("n", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+        most=12,
     )
 
 

@@ -48,6 +48,13 @@ class FigureSettings(Sections):
     transitions: Transitions
 
 
+class DurationSettings(Sections):
+    """What durations are tested and modelled with."""
+
+    transitions: Transitions
+    durations: Durations
+
+
 class SynthesisSettings(Sections):
     """What synthetic transitions and utterances are made with."""
 
