@@ -564,7 +564,7 @@ def test_options_that_are_none_are_told(tmp_path):
     told(path, "no option rate of the format bvh; expected encoding, clock", rate=3, **spec)
     told(path, "the clock is 'late'; expected first_frame", clock="late", **spec)
     tags = table(tmp_path, "start,end,label", "0,1,A")
-    with pytest.raises(SignkinError, match="no option starts of the format csv; expected rate_hz"):
+    with pytest.raises(SignkinError, match=r"no option .*starts.*expected rate_hz"):
         read_annotation(tags, starts="x")
 
 
