@@ -266,6 +266,25 @@ def test_other_separators_and_decimal_commas_are_read(tmp_path, separator, decim
 
 
 @pytest.mark.parametrize(
+    ("name", "separator"),
+    [("vicon_csv", ";"), ("motive_csv", ";"), ("qualisys_tsv", "\t"), ("trc", "\t"),
+     ("mediapipe_csv", ";"), ("deeplabcut_csv", ";"), ("openpose_csv", ";")],
+)  # fmt: skip
+def test_makers_exports_in_other_languages(tmp_path, name, separator):
+    path, spec = sample(name, tmp_path)
+    plain = read_recording(path, **spec)
+    text = path.read_text().replace(",", separator).replace(".", ",")
+    path.write_text(text)
+    if name in ("mediapipe_csv", "deeplabcut_csv", "openpose_csv"):
+        spec |= {"separator": "semicolon"}
+    recording = read_recording(path, **spec)
+    assert recording.rate_hz == plain.rate_hz
+    assert np.array_equal(recording.positions, plain.positions)
+    declared = read_recording(path, decimal=",", **spec)
+    assert np.array_equal(declared.positions, plain.positions)
+
+
+@pytest.mark.parametrize(
     ("rows", "match"),
     [
         (("1.234,5;2;3;4;5;6",) * 2, r"line 2, column rx: found '1.234,5'"),
