@@ -516,6 +516,23 @@ def test_occluded_markers_are_gaps(tmp_path):
     told(path, r"where the header says|not readable as a C3D file", joints={"right_wrist": "a"})
 
 
+@pytest.mark.parametrize(
+    ("unit", "metres"), [("mm", 0.001), ("cm", 0.01), ("m", 1), ("meters", 1), ("in", 0.0254)]
+)
+def test_the_unit_of_a_c3d_file_is_read(tmp_path, unit, metres):
+    c3d = pytest.importorskip("c3d", reason="the optional library c3d is not there")
+    x = np.ones((3, 1, 5), dtype=np.float32)
+    writer = c3d.Writer(point_rate=50, point_units=unit, point_scale=-1.0)
+    writer.add_frames([(frame, np.zeros((0, 0))) for frame in x])
+    writer.set_point_labels(["a"])
+    path = tmp_path / "u.c3d"
+    with path.open("wb") as file:
+        writer.write(file)
+    recording = read_recording(path, joints={"right_wrist": "a"})
+    assert recording.track("right_wrist")[0] == pytest.approx([metres] * 3)
+    told(path, "the declared unit is ft", joints={"right_wrist": "a"}, unit="ft")
+
+
 def test_people_of_a_folder_of_json(tmp_path):
     path, spec = sample("openpose_json", tmp_path)
     files = sorted(path.iterdir())
