@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import os
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -393,7 +394,8 @@ def _read_signs(path: Path) -> Iterator[SignType]:
                 place=f"line {line}",
                 expected="symmetric = 1 for two-handed signs (hands = 1) only",
             )
-        yield SignType(row["gloss"], hands, symmetric)
+        # Annotations are read with composed accents, too.
+        yield SignType(unicodedata.normalize("NFC", row["gloss"]), hands, symmetric)
 
 
 # --- where the data lie ----------------------------------------------------------------------

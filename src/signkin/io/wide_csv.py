@@ -131,7 +131,7 @@ def read_wide_csv(
 
 
 def _columns_of(joints: Mapping[str, Sequence[str]] | None) -> dict[str, list[str]]:
-    """Return the names of the columns of each joint, two or three."""
+    """Return joint -> its columns; no joint, or not 2 or 3 columns of one, is an error."""
     if not joints:
         raise SignkinError(
             "no joint map", place="joints", expected="joint: [columns] for at least one joint"
@@ -145,10 +145,10 @@ def _columns_of(joints: Mapping[str, Sequence[str]] | None) -> dict[str, list[st
 
 
 def _positions(rows: pd.DataFrame, of_joint: Mapping[str, Sequence[str]]) -> NDArray[np.float64]:
-    """Return the positions, (F, J, 3); of two columns the third coordinate is 0."""
+    """Return the positions, (F, J, 3); a joint of two columns has 0 as its third coordinate."""
+    places = [(j, axis) for j, c in enumerate(of_joint.values()) for axis in range(len(c))]
     positions = np.zeros((len(rows), len(of_joint), 3))
     numbers = numbers_of(rows, [c for columns in of_joint.values() for c in columns])
-    places = [(j, axis) for j, c in enumerate(of_joint.values()) for axis in range(len(c))]
     for column, (j, axis) in enumerate(places):
         positions[:, j, axis] = numbers[:, column]
     return positions
