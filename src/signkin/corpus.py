@@ -213,7 +213,7 @@ def load_corpus(folder: Path) -> Corpus:
     checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
-    _check_shared_tables(settings["motion"], entries, folder / "recordings.csv")
+    _check_shared_tables(settings, entries, folder / "recordings.csv")
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     return Corpus(folder.name, folder, settings, entries, signs)
@@ -346,9 +346,17 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
 
 
-def _check_shared_tables(motion: Mapping[str, Any], entries: tuple[Entry, ...], file: Path) -> None:
-    """Refuse two recordings of one table that nothing tells apart: each would be all of it."""
+def _check_shared_tables(
+    settings: Mapping[str, Any], entries: tuple[Entry, ...], file: Path
+) -> None:
+    """Refuse two recordings of one table that nothing tells apart: each would be all of it.
+
+    A part that names tiers (`{part}`) tells the tags apart, and says nothing of the motion.
+    """
+    motion = settings["motion"]
     if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
+        return
+    if "{part}" in str(settings.get("annotation", "")):
         return
     parts: dict[str, Entry] = {}
     for entry in entries:

@@ -110,10 +110,9 @@ def read_wide_csv(
         rows = rows.iloc[order]
         _check_frames(frames[order], rows.index.to_numpy())
     times = None if time_column is None else column_numbers(rows, time_column)
-    possible = None if time_column is not None else _undeclared_rate(rows)
     return source_motion(
         Points(
-            rate_range=possible,
+            rate_range=None if time_column is not None else _undeclared_rate(rows),
             joints=tuple(of_joint),
             positions=_positions(rows, of_joint),
             flat=tuple(len(columns) == 2 for columns in of_joint.values()),
