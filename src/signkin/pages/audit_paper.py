@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -110,6 +111,13 @@ def _write(page: Page, folder: Path) -> None:
 
 def paper_page(paper: Paper, ledger: Ledger, folder: Path) -> Page:
     """Return the page of a paper: verdicts, what is contradicted, every claim with its checks."""
+    here = f"{paper.folder}/"  # a long path would make the page wider than a telephone
+    ledger = replace(
+        ledger,
+        claims=ledger.claims.assign(note=ledger.claims["note"].str.replace(here, "", regex=False)),
+        details=ledger.details.assign(why=ledger.details["why"].str.replace(here, "", regex=False)),
+        faults=tuple(fault.replace(here, "") for fault in ledger.faults),
+    )
     sections = [_verdicts(paper, ledger, folder), *_contradictions(paper, ledger)]
     sections += [_guide(), _claims(paper, ledger, folder)]
     if ledger.faults:
