@@ -34,7 +34,7 @@ def test_trailing_zeros_count():
 @pytest.mark.parametrize(
     "rounding, inside",
     [("nearest", (True, True)), ("half_up", (True, False)), ("half_even", (True, True)),
-     ("truncated", (False, True))],
+     ("truncated", (False, True)), ("any", (True, True))],
 )  # fmt: skip
 def test_ties_go_as_the_rounding_says(rounding, inside):
     values = allowed("0.2", rounding)
