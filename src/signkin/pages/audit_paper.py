@@ -66,10 +66,8 @@ def audit_papers(told_: argparse.Namespace) -> int:
     ):  # fmt: skip
         if path is not None:
             write_table(frame, path, name)
-    to = told_.to or Path(
-        f"audit-{Path(folders[0]).resolve().name}" if len(papers) == 1 else "audit"
-    )
     many = len(papers) > 1
+    to = told_.to or Path("audit" if many else f"audit-{papers[0].folder.resolve().name}")
     for paper, part in zip(papers, parts, strict=True):
         write_paper(paper, part, to / paper.folder.resolve().name if many else to)
     if many:
