@@ -328,9 +328,7 @@ rule duration_surface:
         transitions=rules.naert_tables.output.transitions,
         speeds=rules.duration_models.output.transition_speeds,
     output:
-        svg="<results>/naert2017/{corpus}/fig11.svg",
-        pdf="<results>/naert2017/{corpus}/fig11.pdf",
-        csv="<results>/naert2017/{corpus}/fig11.csv",
+        files(of_groups(NAERT_EXHIBITS, "surface"), "<results>/naert2017/{corpus}"),
     log:
         "<logs>/naert2017/{corpus}/duration_surface.log",
     params:

@@ -28,11 +28,6 @@ class Samples:
     complete: bool
     grain: str
 
-    def in_units(self) -> list[list[float]]:
-        """Return the samples in the unit of the print."""
-        step = ratio(self.grain)
-        return [[float(v * step) for v in sample] for sample in self.values]
-
 
 def samples(
     mean: str,

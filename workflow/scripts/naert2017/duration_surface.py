@@ -14,6 +14,7 @@ with job(snakemake):
         params.settings,
     )
     points, theta, _ = durations_surface.surface_points(learn)
-    tables.write_table(points, out.csv, "surface_points")
+    svg, pdf, csv = out
+    tables.write_table(points, csv, "surface_points")
     with paper_style():
-        save(durations_figures.draw_surface(points, theta, learn.unit_in_words), out.svg, out.pdf)
+        save(durations_figures.draw_surface(points, theta, learn.unit_in_words), svg, pdf)

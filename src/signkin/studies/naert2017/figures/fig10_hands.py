@@ -40,6 +40,7 @@ def caption(typed: pd.DataFrame) -> str:
     told = ", ".join(f"{n} {source}" for source, n in sorted(sources.items()))
     return (
         f"Mean duration by the number of hands of the signs before and after (type 2 counts as "
-        f"two-handed), manual tags, whole body; n = {len(typed)}. Types from: {told} (kinematic: "
+        f"two-handed), manual tags, whole body; n = {len(typed)}; dots are the single "
+        f"transitions of transitions.csv. Types from: {told} (kinematic: "
         "inferred from motion). Orange: the paper's means, weighted from its Table 2."
     )
