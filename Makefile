@@ -52,7 +52,7 @@ unit: $(VENV)/ready
 	.ci/chromium
 	$(BIN)/pytest -n 2 --dist loadfile $(ARGS)
 
-# Apart from `make test`, which it would slow by a third. What runs compiled, and the scripts that
+# Apart from `make test`, whose time it would double. What runs compiled, and the scripts that
 # Snakemake starts, are not seen.
 coverage: $(VENV)/ready
 	$(BIN)/pytest -n 2 --dist loadfile tests/unit tests/oracle --quiet \

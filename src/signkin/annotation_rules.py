@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -71,6 +72,10 @@ def excerpt(
     )
 
 
+def _composed(text: object) -> str:
+    return unicodedata.normalize("NFC", str(text))
+
+
 @dataclass(frozen=True)
 class GlossRules:
     """How glosses are made from labels; the label as written is kept beside.
@@ -98,7 +103,7 @@ class GlossRules:
             raise SignkinError(
                 "merge is no table", place="key annotation.gloss.merge", expected="gloss: gloss"
             )
-        table = {str(key): str(value) for key, value in (merge or {}).items()}
+        table = {_composed(key): _composed(value) for key, value in (merge or {}).items()}
         chained = [key for key, value in table.items() if value in table and table[value] != value]
         if chained:
             raise SignkinError(

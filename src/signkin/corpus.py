@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import os
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -25,6 +26,7 @@ from signkin.annotation import TierWish, tier_key
 from signkin.errors import SignkinError, listed
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
+from signkin.shared_files import check_shared_tables, check_shared_tags
 from signkin.yaml_file import read_yaml
 
 SCHEMAS = files("signkin") / "schemas"
@@ -212,10 +214,12 @@ def load_corpus(folder: Path) -> Corpus:
     checked(CorpusDescription, settings, folder / "corpus.yaml", hint=GUIDE)
     _check_joints(settings["motion"], folder / "corpus.yaml")
     entries = tuple(_read_entries(folder / "recordings.csv", tagged="annotation" in settings))
-    _check_shared_tables(settings["motion"], entries, folder / "recordings.csv")
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
-    return Corpus(folder.name, folder, settings, entries, signs)
+    corpus = Corpus(folder.name, folder, settings, entries, signs)
+    check_shared_tables(corpus, folder / "recordings.csv")
+    check_shared_tags(corpus, folder / "recordings.csv")
+    return corpus
 
 
 def _given(content: dict[str, Any]) -> dict[str, Any]:
@@ -345,22 +349,6 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)
 
 
-def _check_shared_tables(motion: Mapping[str, Any], entries: tuple[Entry, ...], file: Path) -> None:
-    """Refuse two recordings of one table that nothing tells apart: each would be all of it."""
-    if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
-        return
-    parts: dict[str, Entry] = {}
-    for entry in entries:
-        first = parts.setdefault(entry.motion, entry)
-        if first.part != entry.part:
-            raise SignkinError(
-                f"{entry.recording} and {first.recording} are parts of {entry.motion}",
-                file=file,
-                place=f"line {entry.line}",
-                expected="motion.options.recording_column in corpus.yaml, which tells them apart",
-            )
-
-
 def _check_repetition(
     key: tuple[str, str, int], line: int, seen: dict[tuple[str, str, int], int], path: Path
 ) -> None:
@@ -393,7 +381,8 @@ def _read_signs(path: Path) -> Iterator[SignType]:
                 place=f"line {line}",
                 expected="symmetric = 1 for two-handed signs (hands = 1) only",
             )
-        yield SignType(row["gloss"], hands, symmetric)
+        # Annotations are read with composed accents, too.
+        yield SignType(unicodedata.normalize("NFC", row["gloss"]), hands, symmetric)
 
 
 # --- where the data lie ----------------------------------------------------------------------

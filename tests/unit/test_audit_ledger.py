@@ -395,7 +395,7 @@ BAD = {
     ),
     "an unknown table": (
         "claims.yaml", "table: table2.csv, column", "table: table3.csv, column",
-        r"naert2017, line 12: there is no table table3.csv; expected constants.csv, table2.csv",
+        r"claims.yaml, line 12: there is no table table3.csv; expected constants.csv, table2.csv",
     ),
     "an unknown argument": (
         "claims.yaml", "column: n, equals", "columns: n, equals",

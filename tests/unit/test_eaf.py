@@ -1,4 +1,5 @@
 import time
+import unicodedata
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -415,3 +416,21 @@ def test_a_hundred_thousand_annotations_take_time_as_they_are_many(tmp_path):
     small, large = seconds(10_000), seconds(100_000)
     assert large < 20
     assert large < 30 * small
+
+
+def test_accents_coded_in_another_way_are_the_same_letters(nested):
+    apart = unicodedata.normalize("NFD", "HÄUS")
+    nested.write_text(nested.read_text().replace(">A<", f">{apart}<"), encoding="utf-8")
+    a = read_annotation(nested, tiers=("Sign",), gloss={"merge": {apart: "HOUSE"}})
+    assert [(i.label, i.as_written) for i in a.intervals] == [("HOUSE", apart), ("B", "B")]
+    assert read_annotation(nested, tiers=("Sign",)).intervals[0].label == "HÄUS"
+
+
+def test_a_name_of_utf_8_that_is_none_of_xml_is_understood(nested):
+    text = nested.read_text().replace('encoding="UTF-8"', 'encoding="utf8"').replace(">A<", ">Ä<")
+    nested.write_bytes(text.encode())
+    assert read_annotation(nested, tiers=("Sign",)).intervals[0].label == "Ä"
+    assert "Ä".encode() in insert_tiers(text.encode(), NEW)
+    for bad in ("shift_jis", "klingon", "utf-7"):
+        with pytest.raises(SignkinError, match=r"the encoding .* is not one that can be read|XML"):
+            insert_tiers(text.replace("utf8", bad).encode(), NEW)

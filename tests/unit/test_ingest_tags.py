@@ -30,7 +30,8 @@ def corpus(tmp_path, annotation, recordings="r,s1,m.csv,t.csv", columns="", **mo
     head = f"recording,signer,motion,annotation{columns}"
     (folder / "recordings.csv").write_text(f"{head}\n{recordings}\n")
     frames = "".join(f"{i},0,0,0,{i},0\n" for i in range(100))
-    (folder / "m.csv").write_text(f"a,b,c,d,e,f\n{frames}")
+    for name in ("m.csv", "n.csv"):
+        (folder / name).write_text(f"a,b,c,d,e,f\n{frames}")
     (folder / "t.csv").write_text(TABLE)
     made = load_corpus(folder)
     return ingest(made, folder, made.entries)
@@ -88,9 +89,20 @@ def test_tiers_by_the_recordings_own_words(tmp_path):
         "sign_tier": {"pattern": "r*", "participant": "{part}"},
         "options": {"tier_column": "tier", "participant_column": "who"},
     }
-    rows = "r1,s1,m.csv,t.csv,S1,9\nr2,s1,m.csv,t.csv,S2,9"
+    rows = "r1,s1,m.csv,t.csv,S1,9\nr2,s2,n.csv,t.csv,S2,9"
     out = corpus(tmp_path, annotation, rows, ",part,to_s")
     assert of_role(out) == [("A*", 0.5, 1.0), ("B", 1.2, 1.8), ("Z", 4, 5)]
+
+
+def test_two_parts_of_one_annotation_never_get_the_same_tags(tmp_path):
+    options = {"tier_column": "tier"}
+    annotation = {"format": "csv", "sign_tier": "right", "options": options}
+    rows = "r1,s1,m.csv,t.csv,S1,0,9\nr2,s2,n.csv,t.csv,S2,0,9"
+    with pytest.raises(SignkinError, match=r"line 3: r2 and r1 are parts of t.csv and would get"):
+        corpus(tmp_path, annotation, rows, ",part,from_s,to_s")
+    excerpts = "r1,s1,m.csv,t.csv,1,0,3\nr2,s1,n.csv,t.csv,2,3,9"
+    out = corpus(tmp_path, annotation, excerpts, ",part,from_s,to_s")
+    assert of_role(out) == [("A*", 0.5, 1.0), ("B", 1.2, 1.8), ("Z", 1, 2)]
 
 
 def test_labels_of_frames_count_in_the_motions_rate(tmp_path):

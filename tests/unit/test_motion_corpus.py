@@ -13,6 +13,7 @@ import yaml
 from signkin import SignkinError
 from signkin.corpus import check_files, load_corpus
 from signkin.io.store import read_recordings, write_recordings
+from signkin.settings import Settings
 from signkin.stages import ingest as ingest_module
 from signkin.stages.ingest import ingest
 from signkin.stages.plan import Plan
@@ -124,7 +125,7 @@ def test_without_being_asked_to_nothing_is_skipped(made, monkeypatch):
 def test_files_that_are_not_there_are_no_input_of_a_run_that_skips(made, tmp_path):
     corpus, data = made(on_error="skip")
     (data / "b.csv").unlink()
-    plan = Plan({"mine": corpus}, {"mine": data}, {}, 10, tmp_path, tmp_path)
+    plan = Plan({"mine": corpus}, {"mine": data}, {}, Settings(), tmp_path, tmp_path)
     assert plan.files("mine", "0001") == [str(data / "a.csv"), str(data / "c.csv")]
     assert plan.corpora_files("mine") == plan.files("mine", "0001")
 
@@ -168,7 +169,7 @@ def test_a_description_in_another_encoding_is_named_by_line(made, tmp_path, name
     corpus, _ = made()
     path = corpus.folder / name
     path.write_bytes(path.read_bytes() + "# höhe\n".encode("latin-1"))
-    with pytest.raises(SignkinError, match=rf"{name}, line \d+: byte 0xf6 is not UTF-8"):
+    with pytest.raises(SignkinError, match=rf"{name}, line \d+: (the )?byte 0xf6 is not UTF-8"):
         load_corpus(corpus.folder)
 
 

@@ -2,7 +2,6 @@
 from pathlib import Path
 
 from signkin.errors import SignkinError
-from signkin.settings.legacy import legacy
 from signkin.stages.plan import make_plan
 from signkin.yaml_file import read_yaml
 from snakemake.exceptions import WorkflowError
@@ -16,7 +15,6 @@ except SignkinError as error:
 
 # Each rule takes the sections that it needs, so that a changed key reruns what depends on it alone.
 SETTINGS = PLAN.settings
-config = legacy(SETTINGS)
 
 
 wildcard_constraints:

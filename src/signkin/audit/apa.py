@@ -22,9 +22,12 @@ _KIND = (
     r"(?:\^?\s?2|\u00b2|square[d]?)|(?<![\w.,;=]\s)(?<![\w.,])2(?=\s?\()))"  # a lost chi
 )
 _SCI = r"(?:[eE][-+\u2212]?\d+|\s?[x×*·]\s?10\s?\^?\s?[-\u2212\u2013]?\s?\d+)?"
-_P = rf"(?P<p>n\.?\s?s\.?|[pP]\s?(?:[<>=≤≥]\s?=?|\bis\b)\s?{_NUM}{_SCI}|[pP]\s?=?\s?n\.?\s?s\.?)"
+_P = (
+    rf"(?P<p>n\.?\s?s\.?|[pP](?:[- ]value)?\s?(?:[<>=≤≥]\s?=?|\bis\b)\s?{_NUM}{_SCI}"
+    r"|[pP]\s?=?\s?n\.?\s?s\.?)"
+)
 _BETWEEN = (  # an effect size or two may stand before the p
-    r"(?:\s?[,;]|\s)\s?"
+    r"(?:\s?[,;]|\s)\s?\(?"
     r"(?:[A-Za-z\u03b7\u03c9\u03b2²_ ]{0,24}\s?=\s?[-\u2212]?\d*\.?\d+\s?[,;]\s?){0,3}"
 )
 STATISTIC = re.compile(
@@ -141,7 +144,7 @@ def plain(text: str) -> str:
 
 def p_text(text: str) -> str:
     """Return a p as `.03`, `<.001` or `ns`."""
-    bare = re.sub(r"^[pP]\s?", "", text.strip())
+    bare = re.sub(r"^[pP](?:[- ]value)?\s?", "", text.strip())
     if re.match(r"=?\s?n", bare):
         return "ns"
     bare = re.sub(r"^(=|is)\s?", "", bare).replace("\u2212", "-").replace("\u2013", "-")

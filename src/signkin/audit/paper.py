@@ -128,7 +128,7 @@ class Paper:
 def _rows(path: Path, folder: Path) -> Iterator[PrintedRow]:
     if not path.is_file():
         there = sorted(p.name for p in folder.glob("*.csv"))
-        raise SignkinError(f"there is no table {path.name}", file=folder, expected=listed(there))
+        raise SignkinError(f"there is no table {path.name}", expected=listed(there))
     reader = csv.DictReader(text_of(path).splitlines(), strict=True)
     try:
         header = reader.fieldnames or ()

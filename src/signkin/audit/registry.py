@@ -222,7 +222,7 @@ def run(check: Check, context: OnPrint | OnCorpus) -> list[Finding]:
         raise
     except SignkinError as error:
         raise error.at(file=file, place=place) from None
-    except (TypeError, ValueError, KeyError, AttributeError, OverflowError, IndexError) as error:
+    except (TypeError, ValueError, LookupError, AttributeError, ArithmeticError) as error:
         if isinstance(context, OnCorpus):
             raise
         raise SignkinError(
@@ -238,6 +238,11 @@ def typed(function: CheckFunction, given: Mapping[str, Any]) -> dict[str, Any]:
     Text of the command line is taken apart at commas where a list is wanted.
     """
     hints = get_type_hints(function)
+    if "alpha" in given:
+        level = _word("alpha", str(given["alpha"]))
+        if not is_number(level) or not 0 < exactly(level) < 1:
+            raise SignkinError(f"alpha is {level[:40]!r}", expected="a number between 0 and 1")
+        given = {**given, "alpha": level}
     return {name: _typed(name, value, str(hints[name])) for name, value in given.items()}
 
 

@@ -15,7 +15,7 @@ from math import ceil, exp, floor
 
 from signkin.errors import SignkinError, listed
 
-ROUNDINGS = ("nearest", "half_up", "half_even", "truncated")
+ROUNDINGS = ("nearest", "half_up", "half_even", "truncated", "any")
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
 
 
@@ -186,7 +186,7 @@ def allowed(printed: str, rounding: str = "nearest") -> Interval:
 
     rounding: `nearest` (half a unit of the last digit to both sides, a tie may have gone either
     way: nothing is accused that any usual rule allows), `half_up` (ties away from zero),
-    `half_even`, or `truncated`.
+    `half_even`, `truncated`, or `any` (nearest or cut off, where a paper leaves it open).
     """
     if rounding not in ROUNDINGS:
         raise SignkinError(f"the rounding {rounding!r}", expected=listed(ROUNDINGS))
@@ -195,8 +195,8 @@ def allowed(printed: str, rounding: str = "nearest") -> Interval:
     assert isinstance(exponent, int)
     unit = Fraction(10) ** exponent
     size, half = abs(Fraction(value)), unit / 2
-    if rounding == "truncated":
-        part = Interval(size, size + unit, high_open=True)
+    if rounding in ("truncated", "any"):
+        part = Interval(size - (half if rounding == "any" else 0), size + unit, high_open=True)
         if size == 0:
             return Interval(-unit, unit, low_open=True, high_open=True)
     else:

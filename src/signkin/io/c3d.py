@@ -101,7 +101,7 @@ class _About:
         rate = float(reader.point_rate)
         self.rate_hz = float(str(np.float32(rate)))
         units = _strings(reader, "POINT.UNITS", encoding)
-        self.unit = unit_of(units[0][:4]) if units else None
+        self.unit = unit_of(units[0].split()[0]) if units and units[0].split() else None
         self.no_positions = {
             label
             for key in _NO_POSITIONS

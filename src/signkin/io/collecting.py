@@ -86,7 +86,7 @@ def choose_tiers(
 def _named(wish: str, names: Sequence[str]) -> str:
     if wish in names:
         return wish
-    same = [name for name in names if _composed(name) == _composed(wish)]
+    same = [name for name in names if composed(name) == composed(wish)]
     if len(same) == 1:
         return same[0]
     if same:
@@ -99,7 +99,7 @@ def _named(wish: str, names: Sequence[str]) -> str:
     raise SignkinError(
         f"no tier {wish!r}",
         place="tiers",
-        expected=listed(names, 60),
+        expected=listed(map(one_line, names), 60),
         todo="Tier names are case-sensitive.",
     )
 
@@ -112,18 +112,18 @@ def _fulfilling(wish: Mapping[str, str], known: Sequence[TierName]) -> tuple[str
             place="tiers",
             expected="a name, or `pattern` and `participant`",
         )
-    pattern = _composed(str(wish.get("pattern", "*")))
+    pattern = composed(str(wish.get("pattern", "*")))
     person = wish.get("participant")
     found = [
         tier.name
         for tier in known
-        if fnmatchcase(_composed(tier.own or tier.name), pattern)
-        and (person is None or _composed(tier.participant) == _composed(str(person)))
+        if fnmatchcase(composed(tier.own or tier.name), pattern)
+        and (person is None or composed(tier.participant) == composed(str(person)))
     ]
     if not found:
         told = listed(
             (
-                t.name if t.own or not t.participant else f"{t.name} ({t.participant})"
+                one_line(t.name if t.own or not t.participant else f"{t.name} ({t.participant})")
                 for t in known
             ),
             60,
@@ -132,7 +132,14 @@ def _fulfilling(wish: Mapping[str, str], known: Sequence[TierName]) -> tuple[str
     return tuple(dict.fromkeys(found))
 
 
-def _composed(text: str) -> str:
+def one_line(text: str, most: int = 60) -> str:
+    """Return text as a message may quote it: without line ends, cut after `most` letters."""
+    flat = " ".join(text.split("\n"))
+    return flat if len(flat) <= most else f"{flat[:most]}…"
+
+
+def composed(text: str) -> str:
+    """Return text with each accent and its letter as one, as files of most systems have it."""
     return unicodedata.normalize("NFC", text)
 
 
@@ -182,7 +189,7 @@ class Collected:
         if wanted is not None:
             by_name = {wish for wish in wanted if isinstance(wish, str)}
             asked = {known: wish for known, wish in asked.items() if wish in by_name}
-        intervals = self.intervals
+        intervals = [_readable(interval) for interval in self.intervals]
         if any(known != wish for known, wish in asked.items()):
             intervals = [replace(i, tier=asked.get(i.tier, i.tier)) for i in intervals]
         chosen = {wish: tuple(asked.get(n, n) for n in names) for wish, names in chosen.items()}
@@ -213,6 +220,13 @@ class Collected:
             place=f"tier {told!r}" if len(wanted or ()) == 1 else f"tiers {told}",
             expected="intervals",
         )
+
+
+def _readable(interval: Interval) -> Interval:
+    """Return an interval whose label has composed accents, so that one gloss is one text."""
+    if unicodedata.is_normalized("NFC", interval.label):
+        return interval
+    return replace(interval, label=composed(interval.label), written=interval.label)
 
 
 def _short(label: str) -> str:

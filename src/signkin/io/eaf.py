@@ -18,7 +18,7 @@ from urllib.parse import unquote
 
 from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
-from signkin.io.collecting import Collected, TierName, choose_tiers
+from signkin.io.collecting import Collected, TierName, choose_tiers, composed
 from signkin.io.eaf_write import WHOLE, NewTier, elan_copy, insert_tiers, write_eaf
 from signkin.io.open_slots import fill_open
 from signkin.io.registry import annotation_reader
@@ -126,8 +126,9 @@ def clock_offset_s(root: Element, clock_media: str | None) -> float:
     told = [f"{clock.addresses[0] if clock.addresses else '?'} at {clock.origin_ms} ms"
             for clock in clocks]  # fmt: skip
     if clock_media is not None:
-        found = [c for c in clocks if clock_media in c.addresses]
-        found = found or [c for c in clocks if clock_media in c.names]
+        wanted = composed(clock_media)
+        found = [c for c in clocks if wanted in map(composed, c.addresses)]
+        found = found or [c for c in clocks if wanted in map(composed, c.names)]
         if not found:
             names = dict.fromkeys(name for clock in clocks for name in clock.names)
             raise SignkinError(

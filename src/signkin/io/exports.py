@@ -8,6 +8,7 @@ Points at exactly 0, 0, 0 and empty cells are gaps.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
@@ -15,7 +16,7 @@ from signkin.io.markers import MarkerHead, read_markers, unit_of
 from signkin.io.points import source_motion
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
-from signkin.io.text import number, quoted
+from signkin.io.text import number, quoted, text_lines
 from signkin.io.trc import check_times
 
 # Further down no maker's header goes.
@@ -256,23 +257,18 @@ def read_motive_csv(
 def _separated(
     path: Path, separator: str | None, decimal: str | None, encoding: str | None
 ) -> tuple[Layout, str]:
-    """Return the layout, and the separator: the declared one, or the commonest of the first rows.
+    """Return the layout, and the separator: the declared one, or the one of the first rows.
 
-    A comma between cells and a decimal comma cannot both be; semicolons go with decimal commas.
+    Semicolons and tabs stand in few texts, commas also within numbers: so they are asked first.
     """
     layout = Layout(separator, decimal, encoding=encoding)
     if layout.character is not None:
         return layout, layout.character
-    counts = {}
-    for mark in (",", ";", "\t"):
-        widths = []
-        for line, row in rows_of(path, Layout(mark, encoding=encoding), mark):
-            widths.append(len(row))
-            if line > 8:
-                break
-        counts[mark] = max(widths, default=0)
-    best = max(counts, key=lambda mark: counts[mark])
-    return Layout(best, decimal, encoding=encoding), best
+    for mark in ("\t", ";"):
+        first = [text.count(mark) for text in islice(text_lines(path, encoding), _LONGEST_HEADER)]
+        if sum(count >= 3 for count in first) >= 2:
+            return Layout(mark, decimal, encoding=encoding), mark
+    return Layout(",", decimal, encoding=encoding), ","
 
 
 def _no_header(expected: str, line: int) -> SignkinError:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import math
+import warnings
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -91,14 +92,18 @@ def _array(path: Path, key: str | None) -> NDArray[np.float64]:
                 (2, 0): np.lib.format.read_array_header_2_0}.get(version)  # fmt: skip
         if read is None:
             raise ValueError(f"version {version}")
-        shape, _, kind = read(stream)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a header of Python 2 is read all the same
+            shape, _, kind = read(stream)
         if kind.hasobject or kind.kind not in "fiu":
             raise ValueError(f"an array of {kind}, not of numbers")
         # The header may promise any shape: it is held to the bytes that follow it.
         if any(n < 0 for n in shape) or math.prod(shape) * kind.itemsize > len(content):
             raise ValueError(f"the shape {shape} for {len(content)} bytes")
         stream.seek(0)
-        array = np.lib.format.read_array(stream, allow_pickle=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            array = np.lib.format.read_array(stream, allow_pickle=False)
     except SignkinError:
         raise
     except Exception as error:  # zip, struct, syntax and token errors of a damaged file

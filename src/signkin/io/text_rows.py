@@ -9,7 +9,8 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Sequence
+import unicodedata
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -83,11 +84,16 @@ class TextTable:
         count = self.columns.count(column)
         if count == 1:
             return self.columns.index(column)
+        if not count:  # accents may be coded in another way
+            plain = [unicodedata.normalize("NFC", name) for name in self.columns]
+            wanted = unicodedata.normalize("NFC", column)
+            if plain.count(wanted) == 1:
+                return plain.index(wanted)
         if count:
             raise SignkinError(
                 f"{count} columns are called {column!r}", place="line 1", expected="one"
             )
-        raise SignkinError(f"no column {column!r}", expected=listed(self.columns, 40))
+        raise SignkinError(f"no column {column!r}", expected=listed(_flat(self.columns), 40))
 
     def part(self, column: str | None, part: str | None) -> TextTable:
         """Return the rows of one recording, where a column tells several apart."""
@@ -103,9 +109,16 @@ class TextTable:
         if not rows:
             there = dict.fromkeys(row.cells[place] for row in self.rows)
             raise SignkinError(
-                f"no row with {column} = {part}", place=f"column {column}", expected=listed(there)
+                f"no row with {column} = {part}",
+                place=f"column {column}",
+                expected=listed(_flat(there)),
             )
         return TextTable(self.columns, rows)
+
+
+def _flat(names: Iterable[str]) -> list[str]:
+    """Return names as a message may quote them."""
+    return [name.replace("\n", " ")[:60] for name in names]
 
 
 def read_table(
@@ -149,7 +162,7 @@ def _parsed(
             raise SignkinError(
                 f"{len(row.cells)} cells, {more} than the header has",
                 place=f"line {row.line}",
-                expected=f"{len(columns)}: {listed(columns)}",
+                expected=f"{len(columns)}: {listed(_flat(columns))}",
                 todo="Is the separator right, and is text with a separator in it in quotes?",
             )
     return TextTable(columns, tuple(rows[1:]))

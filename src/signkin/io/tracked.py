@@ -44,6 +44,8 @@ def read_mediapipe_csv(
     time_column: str | None = "time",
     time_unit: str = "ms",
     resample_hz: float | None = None,
+    separator: str = "comma",
+    decimal: str | None = None,
     encoding: str | None = None,
 ) -> SourceMotion:
     """Read a table of MediaPipe landmarks as masked-piper and envisionBOX write it.
@@ -61,7 +63,7 @@ def read_mediapipe_csv(
             place="options, image_size",
             expected="[width, height] of the video in pixels",
         )
-    layout = Layout("comma", encoding=encoding)
+    layout = Layout(separator, decimal, encoding=encoding)
     header = _header(path, layout, 1)[0]
     names = tuple(title[2:] for title in header if title[:2].upper() == "X_")
     if not names:
@@ -158,6 +160,8 @@ def read_deeplabcut_csv(
     joints: Mapping[str, str] | None = None,
     part: str | None = None,
     confidence_threshold: float = LIKELY,
+    separator: str = "comma",
+    decimal: str | None = None,
 ) -> SourceMotion:
     """Read a table of DeepLabCut (SLEAP and Lightning Pose export the same), in pixels.
 
@@ -165,7 +169,7 @@ def read_deeplabcut_csv(
     rows are frames, numbered, or named by image. Less likely than confidence_threshold is a gap.
     """
     limit = threshold_of(confidence_threshold)
-    layout = Layout("comma")
+    layout = Layout(separator, decimal)
     rows = _header(path, layout, 4)
     titles = [row[0].lower() for row in rows]
     if "bodyparts" not in titles or "coords" not in titles:

@@ -116,7 +116,7 @@ def _head(lines: list[str], separator: str, layout: Layout) -> MarkerHead:
 
 def _value(told: Mapping[str, str], key: str, layout: Layout) -> float:
     text = told.get(key, "")
-    value = number(text.replace(",", ".") if layout.decimal == "," else text)
+    value = number(text if layout.character == "," else text.replace(",", "."))
     if value is None:
         raise SignkinError(
             f"{key} is {quoted(text)}", place="line 3", expected="DataRate, NumFrames, NumMarkers"

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from signkin.clock import SECONDS_PER, clock_of
 from signkin.errors import SignkinError, listed
@@ -89,22 +90,13 @@ def read_wide_csv(
     image_size: [width, height] in pixels, for coordinates from 0 to 1.
     velocities: `integrate`, where the columns are velocities in unit/s; positions start at 0.
     """
-    if not joints:
-        raise SignkinError(
-            "no joint map", place="joints", expected="joint: [columns] for at least one joint"
-        )
-    for joint, columns in joints.items():
-        if isinstance(columns, str | int) or len(columns) not in (2, 3):
-            raise SignkinError(
-                f"{joint} has the columns {columns!r}", place="joints", expected="2 or 3 columns"
-            )
+    of_joint = _columns_of(joints)
     if confidence is not None and not isinstance(confidence, Mapping):
         raise SignkinError(
             f"confidence is {quoted(confidence)}",
             place="options, confidence",
             expected="joint: column",
         )
-    of_joint = {joint: [str(c) for c in columns] for joint, columns in joints.items()}
     trust = {joint: str(c) for joint, c in (confidence or {}).items() if joint in of_joint}
     layout = Layout(separator, decimal, skip_rows, header_rows, encoding, missing_texts(missing))
     others = [c for c in (recording_column, frame_column, time_column) if c is not None]
@@ -117,18 +109,12 @@ def read_wide_csv(
         order = np.argsort(frames, kind="stable")
         rows = rows.iloc[order]
         _check_frames(frames[order], rows.index.to_numpy())
-    places = [(j, axis) for j, c in enumerate(of_joint.values()) for axis in range(len(c))]
-    positions = np.zeros((len(rows), len(of_joint), 3))
-    numbers = numbers_of(rows, [c for columns in of_joint.values() for c in columns])
-    for column, (j, axis) in enumerate(places):
-        positions[:, j, axis] = numbers[:, column]
     times = None if time_column is None else column_numbers(rows, time_column)
-    possible = None if time_column is not None else _undeclared_rate(rows)
     return source_motion(
         Points(
-            rate_range=possible,
+            rate_range=None if time_column is not None else _undeclared_rate(rows),
             joints=tuple(of_joint),
-            positions=positions,
+            positions=_positions(rows, of_joint),
             flat=tuple(len(columns) == 2 for columns in of_joint.values()),
             confidence={joint: column_numbers(rows, c) for joint, c in trust.items()},
             times=times,
@@ -142,6 +128,30 @@ def read_wide_csv(
         image_size=image_size,
         velocities=velocities,
     )
+
+
+def _columns_of(joints: Mapping[str, Sequence[str]] | None) -> dict[str, list[str]]:
+    """Return joint -> its columns; no joint, or not 2 or 3 columns of one, is an error."""
+    if not joints:
+        raise SignkinError(
+            "no joint map", place="joints", expected="joint: [columns] for at least one joint"
+        )
+    for joint, columns in joints.items():
+        if isinstance(columns, str | int) or len(columns) not in (2, 3):
+            raise SignkinError(
+                f"{joint} has the columns {columns!r}", place="joints", expected="2 or 3 columns"
+            )
+    return {joint: [str(c) for c in columns] for joint, columns in joints.items()}
+
+
+def _positions(rows: pd.DataFrame, of_joint: Mapping[str, Sequence[str]]) -> NDArray[np.float64]:
+    """Return the positions, (F, J, 3); a joint of two columns has 0 as its third coordinate."""
+    places = [(j, axis) for j, c in enumerate(of_joint.values()) for axis in range(len(c))]
+    positions = np.zeros((len(rows), len(of_joint), 3))
+    numbers = numbers_of(rows, [c for columns in of_joint.values() for c in columns])
+    for column, (j, axis) in enumerate(places):
+        positions[:, j, axis] = numbers[:, column]
+    return positions
 
 
 def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:

@@ -10,7 +10,6 @@ import codecs
 import xml.parsers.expat
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 from signkin.errors import SignkinError
 
@@ -81,11 +80,17 @@ def parse(content: bytes, expected: str, *, places: bool = False) -> Document:
     elements are wanted, which takes time in large files.
     """
     encoding = _by_mark(content)
-    parser = xml.parsers.expat.ParserCreate()
-    parser.buffer_text = True
-    builder = _Builder(parser, content)
+    builder = _Builder(None)
     try:
-        parser.Parse(content, True)
+        try:
+            builder.parser.Parse(content, True)
+        except (xml.parsers.expat.ExpatError, ValueError, LookupError):
+            # `encoding="utf8"` is no name of XML, and what scripts write.
+            told = builder.declared or "utf-8"
+            if told.lower() == "utf-8" or _known(told, "") != "utf-8":
+                raise
+            builder = _Builder("utf-8")
+            builder.parser.Parse(content, True)
     except xml.parsers.expat.ExpatError as error:
         raise SignkinError(
             f"not well-formed XML ({xml.parsers.expat.ErrorString(error.code)})",
@@ -106,11 +111,11 @@ def parse(content: bytes, expected: str, *, places: bool = False) -> Document:
     return document
 
 
-def _known(declared: str | None) -> str:
+def _known(declared: str | None, otherwise: str = "utf-8") -> str:
     try:
         name = codecs.lookup(declared or "utf-8").name
-    except LookupError:
-        return "utf-8"
+    except (LookupError, ValueError):
+        return otherwise
     return "utf-8" if name.startswith("utf-16") else name  # without a mark it is not UTF-16
 
 
@@ -129,9 +134,11 @@ def _by_mark(content: bytes) -> str | None:
 
 
 class _Builder:
-    """Handlers of a parser that build the tree."""
+    """A parser whose handlers build the tree; encoding: instead of the one that is declared."""
 
-    def __init__(self, parser: Any, content: bytes) -> None:
+    def __init__(self, encoding: str | None) -> None:
+        parser = xml.parsers.expat.ParserCreate(encoding)
+        parser.buffer_text = True
         self.parser = parser
         self.root: Element | None = None
         self.declared: str | None = None

@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -65,10 +66,8 @@ def audit_papers(told_: argparse.Namespace) -> int:
     ):  # fmt: skip
         if path is not None:
             write_table(frame, path, name)
-    to = told_.to or Path(
-        f"audit-{Path(folders[0]).resolve().name}" if len(papers) == 1 else "audit"
-    )
     many = len(papers) > 1
+    to = told_.to or Path("audit" if many else f"audit-{papers[0].folder.resolve().name}")
     for paper, part in zip(papers, parts, strict=True):
         write_paper(paper, part, to / paper.folder.resolve().name if many else to)
     if many:
@@ -110,6 +109,13 @@ def _write(page: Page, folder: Path) -> None:
 
 def paper_page(paper: Paper, ledger: Ledger, folder: Path) -> Page:
     """Return the page of a paper: verdicts, what is contradicted, every claim with its checks."""
+    here = f"{paper.folder}/"  # a long path would make the page wider than a telephone
+    ledger = replace(
+        ledger,
+        claims=ledger.claims.assign(note=ledger.claims["note"].str.replace(here, "", regex=False)),
+        details=ledger.details.assign(why=ledger.details["why"].str.replace(here, "", regex=False)),
+        faults=tuple(fault.replace(here, "") for fault in ledger.faults),
+    )
     sections = [_verdicts(paper, ledger, folder), *_contradictions(paper, ledger)]
     sections += [_guide(), _claims(paper, ledger, folder)]
     if ledger.faults:

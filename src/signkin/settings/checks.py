@@ -186,6 +186,12 @@ def contradictions(settings: Settings) -> Iterator[tuple[str, str, str]]:
     ):
         if max(orders) >= bins:
             yield place, f"order {max(orders)} with {bins} bins", f"orders below {bins}"
+    # Fig. 3 shows the fit of order 3, and what is made with it.
+    for place, orders in (
+        ("binning.orders", binning.orders), ("binning.fitted_orders", binning.fitted_orders),
+    ):  # fmt: skip
+        if 3 not in orders:
+            yield place, f"orders {', '.join(map(str, orders))}", "order 3 among them (Fig. 3)"
     own = binning.continuous
     if own.longest_segment_s < (own.order + 1) * own.bin_s:
         yield (

@@ -1,8 +1,9 @@
-"""`signkin corpus list` and `signkin corpus check`."""
+"""`signkin corpus init`, `check` and `list`."""
 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections import Counter
 from pathlib import Path
@@ -13,6 +14,8 @@ RECORDINGS = 100
 LINES = 12
 EXAMPLES = """examples:
   signkin corpus list
+  signkin corpus init ~/recordings/mine
+  signkin corpus check mine --data ~/recordings
   signkin corpus check boston104 --data ~/recordings
   signkin corpus check corpora/mine --all
 """
@@ -33,6 +36,10 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--all", action="store_true", help="look at all recordings")
     check.add_argument("--out", type=Path, help="folder of the page and tables "
                        "(results/check/<corpus>)")  # fmt: skip
+    first = what.add_parser("init", help="describe a folder of recordings as a corpus")
+    first.add_argument("folder", type=Path, help="folder with the motion and the annotations")
+    first.add_argument("--name", help="of the corpus (the folder's name)")
+    first.add_argument("--into", type=Path, help="folder of its description (corpora/<name>)")
     for parser in (listing, check):
         parser.add_argument("--data", help="folder of the real recordings (else SIGNKIN_DATA)")
 
@@ -40,6 +47,8 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def run_corpus(told: argparse.Namespace) -> int:
     """Run one of the commands; returns 1 where something is wrong."""
     try:
+        if told.what == "init":
+            return init_corpus(told.folder, told.name, told.into)
         return list_corpora(told.data) if told.what == "list" else check_corpus(told)
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
@@ -70,6 +79,29 @@ def list_corpora(data: str | None) -> int:
         state = "made by the run" if corpus.simulator else "there" if there else "no data"
         print(f"{name:14s} {len(corpus.entries):5d} recordings  {state:15s} "
               f"{', '.join(kinds) or 'no tags':26s} {corpus.settings['language']}")  # fmt: skip
+    return 0
+
+
+def init_corpus(folder: Path, name: str | None, into: Path | None) -> int:
+    """Write the description of a folder; one that is there already is not touched."""
+    from signkin.survey.start import start
+
+    if not folder.is_dir():
+        raise SignkinError("there is no such folder", file=folder)
+    name = name or re.sub(r"[^A-Za-z0-9._-]+", "-", folder.resolve().name).strip("-.")
+    into = into or Path("corpora") / name
+    if (into / "corpus.yaml").exists():
+        raise SignkinError(
+            "it is there already", file=into / "corpus.yaml", todo="Give another --name or --into."
+        )
+    found = start(folder.resolve(), name)
+    into.mkdir(parents=True, exist_ok=True)
+    (into / "corpus.yaml").write_text(found.text, encoding="utf-8")
+    (into / "recordings.csv").write_text(found.recordings, encoding="utf-8")
+    print(f"Written: {into / 'corpus.yaml'}, {into / 'recordings.csv'}. To answer in them:")
+    for i, question in enumerate(found.asked):
+        print(f"{i + 1:3d}. {question}")
+    print(f"Then: signkin corpus check {name} --data {folder.resolve().parent}")
     return 0
 
 

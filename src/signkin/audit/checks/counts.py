@@ -46,6 +46,8 @@ def percentage(
     With a table: columns. of: 100 for percent, 1 for a share.
     """
     scale = exactly(of)
+    if scale <= 0:
+        raise SignkinError(f"of is {of}", expected="100, or 1 for shares")
     allowed("0", rounding)
 
     def judge(row: Row) -> Finding:
@@ -90,6 +92,8 @@ def margins(
     columns: of the counts. total: the column of their sums. total_row: the name (first column)
     of the row of sums.
     """
+    if not columns:
+        raise SignkinError("no columns of counts", expected="columns: [yes, no]")
     if not total and not total_row:
         raise SignkinError("no margin to add up to", expected="total, total_row or both")
     source, out = context.source(table), []

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from signkin.audit import kruskal, pvalues
-from signkin.audit.checks.rows import Row, each, rows_of, verdict_of
+from signkin.audit.checks.rows import Row, each, one_digit, rows_of, verdict_of
 from signkin.audit.expressions import evaluate, sides
-from signkin.audit.findings import Finding
+from signkin.audit.findings import CONSISTENT, INCONSISTENT, Finding
 from signkin.audit.registry import OnPrint, on_print
 from signkin.audit.rounding import Interval, allowed, as_interval, count, exactly, shown
 from signkin.errors import SignkinError, listed
@@ -83,6 +84,16 @@ def p_value(
         kind, context.text(statistic), [context.text(d) for d in df], context.text(p), alpha,
         rounding, tails, [context.text(g) for g in groups],
     )  # fmt: skip
+    if found.verdict == INCONSISTENT:
+        cells = {kind: context.text(statistic), "p": context.text(p)}
+        cells |= {f"df{i or ''}": context.text(d) for i, d in enumerate(df)}
+
+        def fits(changed: Mapping[str, str]) -> bool:
+            dfs = [changed[f"df{i or ''}"] for i in range(len(df))]
+            one = pvalues.p_agrees(kind, changed[kind], dfs, changed["p"], alpha, rounding, "two")
+            return one.verdict == CONSISTENT
+
+        found = replace(found, nearest=f"{found.nearest}; {one_digit(cells, fits)}")
     return [found]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from signkin.audit import summaries
@@ -15,6 +15,9 @@ from signkin.audit.rounding import allowed
 from signkin.errors import SignkinError, listed
 
 ABSENT = ("", "/", "-", "–", "—", "NA", "n/a")
+
+
+MOST_TOLD = 8  # single digits that would do
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,8 @@ def rows_of(
     columns: role -> column of the table; without a table, role -> a printed number (its name or
     its digits), which make one row. suffixes: further columns of a row (`_without_outlier`).
     """
+    if not columns.get(key):
+        raise SignkinError(f"no {key}", expected="a number, or a column of the table")
     if not table:
         yield Row("", {role: context.text(value) for role, value in columns.items()})
         return
@@ -100,14 +105,14 @@ def verdict_of(fits: bool | None) -> str:
 
 def want_settings(
     grain: str | None = None, items: int | str = 1, divisor: str = "", rounding: str = "nearest",
-    spread: str = "", further: Sequence[str] = ("either",),
+    spread: str = "sd", further: Sequence[str] = ("either",),
 ) -> None:  # fmt: skip
     """Check what a claim sets before any row is read, so that no row is blamed for it."""
     if grain is not None:
         grain_of(grain, items)
     if divisor and divisor not in (*DIVISORS, *further):
         raise SignkinError(f"the divisor {divisor!r}", expected=listed((*DIVISORS, *further)))
-    if spread and spread not in (*SPREADS, "either"):
+    if spread not in (*SPREADS, "either"):
         raise SignkinError(f"the spread {spread!r}", expected=listed((*SPREADS, "either")))
     allowed("0", rounding)
 
@@ -145,6 +150,23 @@ def groups_of(
     return out
 
 
-def named(finding: Finding, name: str) -> Finding:
-    """Return a finding about an item."""
-    return replace(finding, item=name)
+def one_digit(cells: Mapping[str, str], fits: Callable[[Mapping[str, str]], bool]) -> str:
+    """Return which single digit, printed otherwise, would make the numbers fit: `n 27, mean 5.18`.
+
+    Neighbours on the keyboard or not: each digit of each cell is tried in all ten ways.
+    """
+    found = []
+    for role, text in cells.items():
+        for i, digit in enumerate(text):
+            for other in "0123456789" if digit.isdigit() else "":
+                changed = f"{text[:i]}{other}{text[i + 1 :]}"
+                if other == digit or (role == "n" and changed.startswith("0")):
+                    continue
+                try:
+                    if fits({**cells, role: changed}):
+                        found.append(f"{role} {changed}")
+                except SignkinError:
+                    continue
+    told = ", ".join(found[:MOST_TOLD])
+    more = f" and {len(found) - MOST_TOLD} more" if len(found) > MOST_TOLD else ""
+    return f"one digit otherwise: {told}{more}" if found else "no single digit would do"

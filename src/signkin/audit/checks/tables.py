@@ -6,7 +6,7 @@ arguments are printed numbers: names of the claim's (or another claim's, `N02.me
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -18,6 +18,7 @@ from signkin.audit.checks.rows import (
     each,
     groups_of,
     item,
+    one_digit,
     rows_of,
     verdict_of,
     want_settings,
@@ -79,12 +80,18 @@ def grim(
     """
     want_settings(grain, items, rounding=rounding)
 
+    def fits(cells: Mapping[str, str]) -> bool:
+        found = grim_of(cells["mean"], cells["n"], grain, rounding, items)
+        return found.verdict != INCONSISTENT
+
     def judge(row: Row) -> Finding:
         found = grim_of(row["mean"], row["n"], grain, rounding, items)
-        hand = (
-            f"{row['mean']} x {row['n']} / ({grain} / {items}), to the next whole number and back"
-        )
-        nearest = found.recomputed if found.verdict == INCONSISTENT else ""
+        step = grain if items == "1" else f"({grain} / {items})"
+        hand = f"{row['mean']} x {row['n']} / {step}, to the next whole number and back"
+        nearest = ""
+        if found.verdict == INCONSISTENT:
+            near = one_digit({"mean": row["mean"], "n": row["n"]}, fits)
+            nearest = f"{found.recomputed}; {near}"
         settings = _settings(grain, items, rounding)
         return replace(found, settings=settings, hand=hand, nearest=nearest)
 

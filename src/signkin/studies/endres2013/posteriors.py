@@ -290,6 +290,7 @@ def write_posteriors(path: str | Path, fits: Sequence[Fitted]) -> None:
             "dataset": column(lambda f, i, o: f.data.dataset, pa.string()),
             "order": column(lambda f, i, o: o, pa.int32()),
             "bin_s": column(lambda f, i, o: f.data.source.bin_s, pa.float64()),
+            "sample_at": column(lambda f, i, o: f.data.source.sample_at, pa.float64()),
             "log_evidence": column(lambda f, i, o: f.posterior.log_evidence[i], pa.float64()),
             "order_probability": column(
                 lambda f, i, o: f.posterior.order_probability[i], pa.float64()

@@ -59,7 +59,7 @@ def data(sources: Sources) -> pd.DataFrame:
 def _fit_rows(example: Example) -> list[Row]:
     fits, x = example.fits, example.recorded
     fit = fits[(fits["dataset"] == RECORDED) & (fits["order"] == FITTED_ORDER)].iloc[0]
-    time_s = (np.arange(len(x)) + 0.5) * fit["bin_s"]
+    time_s = (np.arange(len(x)) + fit["sample_at"]) * fit["bin_s"]
     expected = np.asarray(fit["expected"]).reshape(x.shape)
     centred = x - x.mean(axis=0)
     rows = []

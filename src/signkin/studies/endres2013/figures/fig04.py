@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from signkin.binning.posterior import boundary_times
 from signkin.figures import binning as drawing
 from signkin.figures.style import ORDER_COLOURS, WIDTH_IN
 from signkin.report.drawn import Drawn
@@ -60,7 +61,8 @@ def data(corpus: str, example: Example) -> pd.DataFrame:
     (fits, orders), x = _fits(example), example.powerlaw
     axis = int(np.argmax(x.std(axis=0)))
     bin_s = float(fits["bin_s"].iloc[0])
-    time_s = (np.arange(len(x)) + 0.5) * bin_s
+    sample_at = float(fits["sample_at"].iloc[0])
+    time_s = (np.arange(len(x)) + sample_at) * bin_s
     truth = np.asarray(fits["true_boundaries_s"].iloc[0])
     rows = curve("trajectory", "trajectory", time_s, x[:, axis] - x[:, axis].mean())
     for order in orders:
@@ -68,7 +70,7 @@ def data(corpus: str, example: Example) -> pd.DataFrame:
         expected = np.asarray(fit["expected"]).reshape(x.shape)[:, axis]
         rows += curve("trajectory", f"order {order}", time_s, expected)
         density = np.asarray(fit["boundary_probability"], dtype=float) / bin_s
-        ends = [(q + 1) * bin_s for q in range(len(density))]
+        ends = boundary_times(range(len(density)), bin_s, sample_at)
         rows += curve(f"order {order}", "density", ends, density)
         rows += [point(f"order {order}", "true boundaries", t, 0) for t in truth]
     rows += [point("trajectory", "true boundaries", t, 0) for t in truth]

@@ -54,7 +54,7 @@ class Shown:
         return self.signs[0].recording.joints
 
 
-def method_figure(
+def drawn(
     base: Database,
     pair: tuple[int, int],
     method: str,
@@ -63,7 +63,7 @@ def method_figure(
 ) -> Drawn:
     """Draw the transition between two tokens."""
     shown = what_is_shown(base, pair, method, clock, settings)
-    return Drawn(drawing(shown, base.corpus.unit), data(base, shown), caption(base, shown, clock))
+    return Drawn(draw(shown, base.corpus.unit), data(base, shown), caption(base, shown, clock))
 
 
 def what_is_shown(
@@ -94,7 +94,7 @@ def data(base: Database, shown: Shown) -> pd.DataFrame:
     return skeletons_table(base, rows)
 
 
-def drawing(shown: Shown, unit: str) -> Figure:
+def draw(shown: Shown, unit: str) -> Figure:
     """Draw the postures above, what the transition is made of below."""
     short = shown.method == INTERPOLATION
     count = len(shown.instants)

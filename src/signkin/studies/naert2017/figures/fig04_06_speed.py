@@ -19,7 +19,7 @@ from signkin.settings.sections import Lowpass
 REFINED = ("fig06",)  # shows refined tags; the others show minima
 
 
-def speed_figure(
+def drawn(
     corpus: Corpus,
     stem: str,
     excerpt: Excerpt,
@@ -34,7 +34,7 @@ def speed_figure(
     points = data(corpus, excerpt, kinematics, boundaries, minima)
     marks = "refined" if stem in REFINED else "minima"
     return Drawn(
-        drawing(points, corpus.unit, round(rate_hz, 3), marks),
+        draw(points, corpus.unit, round(rate_hz, 3), marks),
         points,
         caption(excerpt, corpus.unit, marks, lowpass),
     )
@@ -64,7 +64,7 @@ def data(
     return points
 
 
-def drawing(points: pd.DataFrame, unit: str, rate_hz: float, marks: str) -> Figure:
+def draw(points: pd.DataFrame, unit: str, rate_hz: float, marks: str) -> Figure:
     """Draw the table `excerpt`; marks: minima or refined."""
     figure, ax = plt.subplots(figsize=(style.WIDTH_IN, 3.3))
     speed.plot_speed(points, unit, rate_hz, ax=ax, marks=marks)

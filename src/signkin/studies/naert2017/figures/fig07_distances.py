@@ -19,13 +19,13 @@ DISTANCES = {
 }
 
 
-def distance_figure(corpus: Corpus, points: pd.DataFrame, outlier_iqr: float) -> Drawn:
+def drawn(corpus: Corpus, points: pd.DataFrame, outlier_iqr: float) -> Drawn:
     """Draw the table `distances`; outlier_iqr: config's transitions.outlier_iqr."""
-    drawn = with_distance(points)
-    x, y = (drawn[c].to_numpy(dtype=float) for c in ("mean_distance", "duration_s"))
+    known = with_distance(points)
+    x, y = (known[c].to_numpy(dtype=float) for c in ("mean_distance", "duration_s"))
     line = descriptive.trend(x, y)
     source = corpus.settings["motion"].get("orientations", "none")
-    return Drawn(drawing(drawn, line), points, caption(points, line, outlier_iqr, source))
+    return Drawn(draw(known, line), points, caption(points, line, outlier_iqr, source))
 
 
 def with_distance(points: pd.DataFrame) -> pd.DataFrame:
@@ -33,10 +33,10 @@ def with_distance(points: pd.DataFrame) -> pd.DataFrame:
     return points[points["mean_distance"].notna()]
 
 
-def drawing(drawn: pd.DataFrame, line: descriptive.Trend | None) -> Figure:
+def draw(known: pd.DataFrame, line: descriptive.Trend | None) -> Figure:
     """Draw transitions and their least-squares line."""
     figure, ax = plt.subplots(figsize=(4.6, 3.4))
-    distance.plot_distances(drawn, None if line is None else (line.slope, line.intercept), ax=ax)
+    distance.plot_distances(known, None if line is None else (line.slope, line.intercept), ax=ax)
     return figure
 
 
@@ -60,7 +60,7 @@ def caption(
 
 def counts(points: pd.DataFrame) -> str:
     """Tell how many transitions are drawn, and how many have no distance."""
-    drawn = len(with_distance(points))
-    text = f"n = {drawn} transitions between manual tags"
-    without = len(points) - drawn
+    known = len(with_distance(points))
+    text = f"n = {known} transitions between manual tags"
+    without = len(points) - known
     return text + (f" ({without} more have no distance: gaps in the motion)" if without else "")

@@ -12,12 +12,12 @@ from signkin.statistics import descriptive
 from signkin.studies.naert2017.figures.fig07_distances import counts, with_distance
 
 
-def diamond_figure(points: pd.DataFrame, shape: descriptive.Diamond | None, share: float) -> Drawn:
+def drawn(points: pd.DataFrame, shape: descriptive.Diamond | None, share: float) -> Drawn:
     """Draw the table `distances` and the diamond; share: config's transitions.diamond_share."""
-    return Drawn(drawing(points, shape), points, caption(points, shape, share))
+    return Drawn(draw(points, shape), points, caption(points, shape, share))
 
 
-def drawing(points: pd.DataFrame, shape: descriptive.Diamond | None) -> Figure:
+def draw(points: pd.DataFrame, shape: descriptive.Diamond | None) -> Figure:
     """Draw the transitions that have a distance, those outside the diamond hollow."""
     figure, ax = plt.subplots(figsize=(4.6, 3.4))
     distance.plot_diamond(with_distance(points), {} if shape is None else shape.corners, ax=ax)

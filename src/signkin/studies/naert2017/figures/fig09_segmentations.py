@@ -12,11 +12,11 @@ from signkin.figures import distance, style
 from signkin.report.drawn import Drawn
 
 
-def segmentation_figure(corpus: Corpus, transitions: pd.DataFrame) -> Drawn:
+def drawn(corpus: Corpus, transitions: pd.DataFrame) -> Drawn:
     """Draw each transition of one hand twice, joined. transitions: the table."""
     pairs = data(transitions, corpus.unit)
     told = caption(pairs, corpus.unit, points_of_an_arm(transitions))
-    return Drawn(drawing(pairs, corpus.unit), pairs, told)
+    return Drawn(draw(pairs, corpus.unit), pairs, told)
 
 
 def points_of_an_arm(transitions: pd.DataFrame) -> int:
@@ -40,7 +40,7 @@ def data(transitions: pd.DataFrame, unit: str) -> pd.DataFrame:
     return pairs[tables.TABLES["segmentations"].names(unit)]
 
 
-def drawing(pairs: pd.DataFrame, unit: str) -> Figure:
+def draw(pairs: pd.DataFrame, unit: str) -> Figure:
     """Draw a panel a hand of the pairs that have both distances."""
     figure, axes = plt.subplots(1, 2, figsize=(style.WIDTH_IN, 3.3), sharey=True)
     for hand, ax in zip(("left", "right"), axes, strict=True):

@@ -11,11 +11,11 @@ from signkin.report.drawn import Drawn
 from signkin.statistics import descriptive
 
 
-def hands_figure(corpus: str, rows: pd.DataFrame, published: pd.DataFrame) -> Drawn:
+def drawn(corpus: str, rows: pd.DataFrame, published: pd.DataFrame) -> Drawn:
     """Draw a bar a change of hands. rows: counted transitions. published: Table 2 as printed."""
     groups = data(corpus, rows, published)
     typed = rows[rows["type"] != ""]
-    return Drawn(drawing(groups, typed), groups, caption(typed))
+    return Drawn(draw(groups, typed), groups, caption(typed))
 
 
 def data(corpus: str, rows: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
@@ -25,7 +25,7 @@ def data(corpus: str, rows: pd.DataFrame, published: pd.DataFrame) -> pd.DataFra
     return groups
 
 
-def drawing(groups: pd.DataFrame, typed: pd.DataFrame) -> Figure:
+def draw(groups: pd.DataFrame, typed: pd.DataFrame) -> Figure:
     """Draw the means, and the single transitions behind them."""
     changes = typed["type"].map(descriptive.hand_change)
     durations = pd.DataFrame({"change": changes, "duration_s": typed["duration_s"]})

@@ -73,12 +73,12 @@ class Shown:
         return list(dict.fromkeys(panel.model for panel in self.panels))
 
 
-def captured_figure(base: Database, rows: pd.DataFrame, settings: SynthesisSettings) -> Drawn:
+def drawn(base: Database, rows: pd.DataFrame, settings: SynthesisSettings) -> Drawn:
     """Draw a transition of usual length and error; rows: the table `synthesis`."""
     if rows.empty:
         return nothing_to_draw(base, "The corpus has no captured transition.")
     shown = what_is_shown(base, rows, settings)
-    return Drawn(drawing(shown, base.corpus.unit), data(base, shown), caption(base, shown))
+    return Drawn(draw(shown, base.corpus.unit), data(base, shown), caption(base, shown))
 
 
 def what_is_shown(base: Database, rows: pd.DataFrame, settings: SynthesisSettings) -> Shown:
@@ -150,7 +150,7 @@ def data(base: Database, shown: Shown) -> pd.DataFrame:
     return skeletons_table(base, rows)
 
 
-def drawing(shown: Shown, unit: str) -> Figure:
+def draw(shown: Shown, unit: str) -> Figure:
     """Draw postures above, a row a model; below, speed by each method."""
     rows = len(shown.models)
     figure = plt.figure(figsize=(style.WIDTH_IN, 1.5 * rows + 2.3))

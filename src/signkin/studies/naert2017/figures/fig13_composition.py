@@ -61,11 +61,11 @@ class Shown:
         return f"last posture of\n{first.gloss}", f"first posture of\n{second.gloss}"
 
 
-def composition_figure(base: Database, settings: SynthesisSettings, printed: Array) -> Drawn:
+def drawn(base: Database, settings: SynthesisSettings, printed: Array) -> Drawn:
     """Draw the composition of two distant signs; printed: theta of the paper."""
     shown = what_is_shown(base, settings, printed)
     bounds = (settings.durations.lowest_s, settings.durations.highest_s)
-    return Drawn(drawing(shown, base.corpus.unit, bounds), data(base, shown), caption(base, shown))
+    return Drawn(draw(shown, base.corpus.unit, bounds), data(base, shown), caption(base, shown))
 
 
 def what_is_shown(base: Database, settings: SynthesisSettings, printed: Array) -> Shown:
@@ -111,7 +111,7 @@ def data(base: Database, shown: Shown) -> pd.DataFrame:
     return skeletons_table(base, rows)
 
 
-def drawing(shown: Shown, unit: str, bounds_s: tuple[float, float]) -> Figure:
+def draw(shown: Shown, unit: str, bounds_s: tuple[float, float]) -> Figure:
     """Draw postures and durations above, speed by each method below.
 
     bounds_s: of SIMPLE BOUNDED.

@@ -10,10 +10,12 @@ import pandas as pd
 
 from signkin.exhibits import Exhibit
 from signkin.report.drawn import Drawn, drawings
+from signkin.studies.naert2017.figures import (
+    fig01_02_methods,
+    fig12_captured,
+    fig13_composition,
+)
 from signkin.studies.naert2017.figures.chosen_signs import shown_pair
-from signkin.studies.naert2017.figures.fig01_02_methods import method_figure
-from signkin.studies.naert2017.figures.fig12_captured import captured_figure
-from signkin.studies.naert2017.figures.fig13_composition import composition_figure
 from signkin.studies.naert2017.figures.skeleton_parts import Array, nothing_to_draw
 from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.database import Database
@@ -51,7 +53,9 @@ def draw(of: Synthesised, listing: Iterable[Exhibit]) -> dict[str, Drawn]:
 
 def _method(name: str) -> Callable[[Synthesised], Drawn]:
     def drawn(of: Synthesised) -> Drawn:
-        return method_figure(of.base, shown_pair(of.base, of.rows), name, of.clock, of.settings)
+        return fig01_02_methods.drawn(
+            of.base, shown_pair(of.base, of.rows), name, of.clock, of.settings
+        )
 
     return drawn
 
@@ -59,11 +63,11 @@ def _method(name: str) -> Callable[[Synthesised], Drawn]:
 def _captured(of: Synthesised) -> Drawn:
     if of.rows is None:
         return nothing_to_draw(of.base, NO_TRUTH)
-    return captured_figure(of.base, of.rows, of.settings)
+    return fig12_captured.drawn(of.base, of.rows, of.settings)
 
 
 def _composition(of: Synthesised) -> Drawn:
-    return composition_figure(of.base, of.settings, of.printed)
+    return fig13_composition.drawn(of.base, of.settings, of.printed)
 
 
 DRAWINGS: dict[str, Callable[[Synthesised], Drawn]] = {

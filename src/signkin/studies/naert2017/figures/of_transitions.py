@@ -16,11 +16,13 @@ from signkin.exhibits import Exhibit
 from signkin.report.drawn import Drawn, drawings
 from signkin.statistics.descriptive import Diamond
 from signkin.studies.naert2017.distances import with_flags
-from signkin.studies.naert2017.figures.fig04_06_speed import speed_figure
-from signkin.studies.naert2017.figures.fig07_distances import distance_figure
-from signkin.studies.naert2017.figures.fig08_diamond import diamond_figure
-from signkin.studies.naert2017.figures.fig09_segmentations import segmentation_figure
-from signkin.studies.naert2017.figures.fig10_hands import hands_figure
+from signkin.studies.naert2017.figures import (
+    fig04_06_speed,
+    fig07_distances,
+    fig08_diamond,
+    fig09_segmentations,
+    fig10_hands,
+)
 from signkin.studies.naert2017.figures.notice import notice
 from signkin.studies.naert2017.settings import FigureSettings
 from signkin.studies.naert2017.transitions import counted
@@ -66,7 +68,7 @@ def _speed(stem: str) -> Callable[[Measured], Drawn]:
     def drawn(of: Measured) -> Drawn:
         if stem not in of.excerpts:
             return Drawn(notice(NO_SIGNS), tables.empty("excerpt", of.corpus.unit), NO_SIGNS)
-        return speed_figure(
+        return fig04_06_speed.drawn(
             of.corpus,
             stem,
             of.excerpts[stem],
@@ -80,19 +82,19 @@ def _speed(stem: str) -> Callable[[Measured], Drawn]:
 
 
 def _distance(of: Measured) -> Drawn:
-    return distance_figure(of.corpus, of.distances[0], of.settings.transitions.outlier_iqr)
+    return fig07_distances.drawn(of.corpus, of.distances[0], of.settings.transitions.outlier_iqr)
 
 
 def _diamond(of: Measured) -> Drawn:
-    return diamond_figure(*of.distances, of.settings.transitions.diamond_share)
+    return fig08_diamond.drawn(*of.distances, of.settings.transitions.diamond_share)
 
 
 def _segmentations(of: Measured) -> Drawn:
-    return segmentation_figure(of.corpus, of.transitions)
+    return fig09_segmentations.drawn(of.corpus, of.transitions)
 
 
 def _hands(of: Measured) -> Drawn:
-    return hands_figure(of.corpus.name, counted(of.transitions), of.published)
+    return fig10_hands.drawn(of.corpus.name, counted(of.transitions), of.published)
 
 
 DRAWINGS: dict[str, Callable[[Measured], Drawn]] = {
