@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 import yaml
 
+from signkin import SignkinError
 from signkin.audit.ledger import audit, evidence_for
 from signkin.audit.paper import read_paper
 from signkin.audit.registry import CORPUS, Evidence, OnCorpus
@@ -167,6 +168,30 @@ def test_nulls_that_disagree_make_it_depend(verdict, values, found, words):
     told, note = verdict(NULLS, {"t": rows})
     assert told == found
     assert words in note
+
+
+def test_one_row_of_eight_below_chance_is_luck(verdict):
+    def rows(below, of):
+        value = np.where(np.arange(of) < below, 0.1, 0.9)
+        return {"order": range(of), "x": value, "low": [0.3] * of, "high": [0.7] * of}
+
+    check = {"check": "beyond_chance", "table": "t", "value": "x", "low": "low", "high": "high",
+             "by": ["order"]}  # fmt: skip
+    for below, of, found in ((0, 8, "holds"), (1, 8, "undecided"), (2, 8, "fails"),
+                             (1, 2, "fails"), (1, 1, "fails")):  # fmt: skip
+        assert verdict(check, {"t": rows(below, of)})[0] == found
+
+
+def test_a_curve_on_a_check_that_is_not_there_is_told(verdict):
+    with pytest.raises(SignkinError, match=r"speaks of check 2.*expected 1 to 1"):
+        verdict(ABOVE, {"t": {"x": [1.0]}}, {**CURVE, "checks": [2]})
+
+
+def test_readings_that_differ_in_no_named_choice_count_one_by_one(verdict):
+    table = {**grid(1.0, -1.0, 1.0), "nu": [3, 3, 3]}
+    told, note = verdict(ABOVE, {"t": {"x": [1.0]}, "grid": table}, CURVE)
+    assert told == "depends"
+    assert "holds under 1 of 2 readings (nu 3 (row 1))" in note
 
 
 def grid(*x):

@@ -20,7 +20,7 @@ from signkin.audit.expressions import evaluate
 from signkin.audit.findings import FAILS, HOLDS, UNDECIDABLE, UNDECIDED, Finding
 from signkin.audit.registry import Missing, OnCorpus, on_corpus
 from signkin.audit.rounding import allowed, shown
-from signkin.audit.verdicts import from_interval
+from signkin.audit.verdicts import from_interval, more_than_luck
 from signkin.errors import SignkinError, listed
 
 DRAWS = 1000  # of the bootstrap
@@ -347,8 +347,9 @@ def beyond_chance(
 
     low, high: columns with the 2.5 and 97.5 % of draws by chance. by: columns that name a row.
     all_of: it holds if every row is above; else if more than the share `more_than` is. Rows
-    within the interval of chance leave it undecided, and fail nothing; rows below it do. Rows
-    without a chance interval count neither way: where they would decide, it is not testable.
+    within the interval of chance leave it undecided; rows below it fail it, if they are more
+    than luck puts there. Rows without a chance interval count neither way: where they would
+    decide, it is not testable.
     """
     frame = _rows(context, table, where)
     unknown = [name for name in by if name not in frame.columns]
@@ -377,7 +378,7 @@ def beyond_chance(
     why += f"; no chance interval for {listed(unsure, 9)}" if unsure else ""
     why += f". Share (chance): {', '.join(told)}"
     verdict = HOLDS if len(above) >= least else UNDECIDED
-    if len(names) - len(lower) < least:
+    if len(names) - len(lower) < least and more_than_luck(len(lower), len(names)):
         verdict = FAILS
     why += f". Below chance: {listed(lower, 9)}" if lower else ""
     return [Finding(verdict, why,

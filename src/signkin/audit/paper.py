@@ -190,6 +190,14 @@ def read_paper(folder: str | Path) -> Paper:
                 expected=listed(seen, 40),
             )
     curves = tuple(curve for curve in curves if curve.claim in seen)
+    sizes = {claim.id: len(claim.corpora) for claim in claims}
+    for curve in curves:
+        if max(curve.checks or (0,)) > sizes[curve.claim]:
+            raise SignkinError(
+                f"the curve of {curve.claim} speaks of check {max(curve.checks or (0,))}",
+                file=path, place=f"line {curve.line}",
+                expected=f"1 to {sizes[curve.claim]}, the claim's checks on corpora",
+            )  # fmt: skip
     return Paper(folder, content["paper"], content["study"], claims, curves,
                  faults=tuple(file.faults))  # fmt: skip
 

@@ -37,6 +37,9 @@ def under_readings(curve: Curve, context: OnCorpus) -> AcrossReadings | None:
         ", ".join(f"{label} {value}" for label, value in zip(choices.values(), row, strict=True))
         for row in table[list(choices)].itertuples(index=False)
     ]
+    if not curve.each:  # rows that differ in no choice named here are readings of their own
+        names = [f"{name} (row {i + 1})" if names.count(name) > 1 else name
+                 for i, name in enumerate(names)]  # fmt: skip
     whole = so.groupby(pd.Series(names, index=so.index), sort=False).all()
     return across(
         {str(name): Verdict.HOLDS if holds else Verdict.FAILS for name, holds in whole.items()}

@@ -19,7 +19,7 @@ from signkin.audit.corpus_checks import LEVEL, _label, _numbers, _rows
 from signkin.audit.findings import FAILS, HOLDS, NOT_TESTABLE, UNDECIDED, Finding
 from signkin.audit.registry import Missing, OnCorpus, on_corpus
 from signkin.audit.rounding import shown
-from signkin.audit.verdicts import Verdict, across, from_interval
+from signkin.audit.verdicts import Verdict, across, from_interval, more_than_luck
 from signkin.errors import SignkinError, listed
 
 DRAWS = 2000
@@ -201,8 +201,8 @@ def against_nulls(
     """A share lies above what each of several nulls gives, in every row of each.
 
     The columns value, chance, chance_low and chance_high are those of tag_chance. Under a null:
-    holds where all rows lie above its 95 % interval, fails where one lies below, else undecided.
-    Where nulls disagree the claim depends on which chance is meant.
+    holds where all rows lie above its 95 % interval, fails where more lie below than luck puts
+    there, else undecided. Where nulls disagree the claim depends on which chance is meant.
     """
     frame = _rows(context, table, where)
     _lacking(table, frame, [null, *by, "value", "chance", "chance_low", "chance_high"])
@@ -217,7 +217,7 @@ def against_nulls(
             for r in rows.itertuples()
         ]
         verdicts[str(name)] = (
-            Verdict.FAILS if Verdict.FAILS in each
+            Verdict.FAILS if more_than_luck(each.count(Verdict.FAILS), len(each))
             else Verdict.HOLDS if set(each) == {Verdict.HOLDS} else Verdict.UNDECIDED
         )  # fmt: skip
         what = ", ".join(
