@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
@@ -70,10 +69,12 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     """Run Snakemake in a folder (its config.yaml, its results), one run at a time.
 
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
-    taken here is the kernel's: it goes with the process, so a killed run can simply go on.
+    taken here is the kernel's: it goes with this process and Snakemake's, so a killed run can
+    simply go on, and none starts beside a Snakemake that is still at work.
     """
     from signkin.binning.compiled import forget_stale_kernels
     from signkin.checkout import workflow_home
+    from signkin.child import run_child
     from signkin.errors import SignkinError
     from signkin.lock import held
     from signkin.yaml_file import read_yaml
@@ -94,7 +95,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     state = folder / ".snakemake"
     state.mkdir(exist_ok=True)
     with held(state / "signkin.lock") as alone:
-        if not alone:
+        if alone is None:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
         forget_stale_kernels()  # no job may run machine code of other sources
@@ -102,11 +103,11 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
-        done = subprocess.run(command, cwd=folder, env={**os.environ, **threads}, check=False)
+        status = run_child(command, folder, {**os.environ, **threads}, alone)
     page = folder / "results" / "report" / "index.html"
-    if done.returncode == 0 and page.exists() and "--" not in extra:
+    if status == 0 and page.exists() and "--" not in extra:
         print(f"The report: {page}")
-    return done.returncode
+    return status
 
 
 if __name__ == "__main__":

@@ -25,10 +25,11 @@ else:
 
 
 @contextmanager
-def held(path: Path) -> Iterator[bool]:
+def held(path: Path) -> Iterator[int | None]:
     """Hold a lock on a file, made where it is not there, inside a `with`.
 
-    Yields False at once where another process (or another `held` of this one) has it.
+    Yields the file descriptor: a child that inherits it holds the lock too (POSIX). Yields None at
+    once where another process (or another `held` of this one) has the lock.
     """
     with path.open("ab") as file:
         try:
@@ -37,6 +38,6 @@ def held(path: Path) -> Iterator[bool]:
             # BlockingIOError on POSIX, PermissionError ("permission denied") from msvcrt.
             if not isinstance(error, BlockingIOError | PermissionError):
                 raise
-            yield False
+            yield None
         else:
-            yield True  # closing the file gives the lock back
+            yield file.fileno()  # closing the file gives the lock back

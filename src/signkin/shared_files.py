@@ -12,9 +12,14 @@ if TYPE_CHECKING:
 
 
 def check_shared_tables(corpus: Corpus, file: Path) -> None:
-    """Refuse two recordings of one table of motion that nothing tells apart."""
+    """Refuse two recordings of one table of motion that nothing tells apart.
+
+    A part that names tiers (`{part}`) tells the tags apart, and says nothing of the motion.
+    """
     motion = corpus.settings["motion"]
     if motion["format"] != "csv" or "recording_column" in motion.get("options", {}):
+        return
+    if "{part}" in str(corpus.settings.get("annotation", "")):
         return
     parts: dict[str, Entry] = {}
     for entry in corpus.entries:

@@ -150,6 +150,18 @@ def test_a_mean_outside_the_scale_is_a_finding(tmp_path):
     assert "above 5, the upper end of the scale" in ledger.claims["note"].item()
 
 
+@pytest.mark.parametrize("p", ["ns", "n.s.", "<.001", "\u2264 .05", ".0004", "1e-4"])
+def test_p_may_be_printed_in_all_its_ways(tmp_path, p):
+    check = "{check: p_value, kind: t, statistic: '4.00', df: ['40'], p: p, reads: So.}"
+    text = HEAD + claim("A", check).replace("needs:", f"printed: {{p: '{p}'}}, needs:")
+    found = audit([read_paper(paper(tmp_path / "p", text))])  # p = .000265
+    assert found.faults == ()
+    fits = p in ("<.001", "\u2264 .05")
+    # One-tailed .00013: no other reading is .0004 either; 1e-4 is.
+    wanted = "consistent" if fits or p == "1e-4" else "inconsistent"
+    assert found.claims["verdict"].item() == wanted
+
+
 # --- the page
 
 

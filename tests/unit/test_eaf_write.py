@@ -213,3 +213,16 @@ def test_tags_that_are_not_elan_become_elan(tmp_path):
     assert len(read_annotation(tmp_path / "r.eaf").intervals) == 4
     with pytest.raises(SignkinError, match=r"a\.csv.*not well-formed"):
         elan_copy(tmp_path / "a.csv", NEW, elan=True, clock_offset_s=0, tags=(), media_url="m")
+
+
+def test_overlaps_stand_on_tiers_of_their_own(tmp_path):
+    """A tier in ELAN has no overlap; no tag is lost, no name is used twice."""
+    rows = [(0, 1, "A"), (0.9, 2, "B"), (0.95, 3, "C"), (2, 4, "D"), (3, 5, "E")]
+    tags = [Interval(a, b, label, "word") for a, b, label in rows]
+    tags.append(Interval(0, 1, "x", "word (2)"))
+    made = elan_copy(tmp_path / "t.csv", [], elan=False, clock_offset_s=0, tags=tags, media_url="m")
+    assert broken(made) == []
+    found = {name: [label for *_, label in own] for name, own in content_of(made).items()}
+    assert found == {
+        "word": ["A", "D"], "word (3)": ["B", "E"], "word (4)": ["C"], "word (2)": ["x"],
+    }  # fmt: skip

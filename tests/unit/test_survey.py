@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signkin.__main__ import main
 from signkin.annotation import Interval
 from signkin.corpus import Corpus, load_corpus
 from signkin.recording import Recording
 from signkin.survey.clock import clock_offset
 from signkin.survey.look import look_at
 from signkin.survey.motion import motion_notices, noise_sd
+from signkin.survey.skeletons import joint_map
 from signkin.survey.tags import fastest_wrist, tag_notices
 from support.runs import ROOT
 
@@ -182,3 +184,83 @@ def test_real_corpora_are_not_called_wrong_and_spoilt_ones_are(real_corpora, nam
         assert wrong_rate & {
             "look: tempo, median of the recordings", "wrong: reading",
         }  # fmt: skip
+
+
+# --- init
+
+
+def test_joints_of_known_skeletons_are_recognised():
+    suit = ["Hips", "Spine3", "Neck", "Head", "RightShoulder", "RightArm", "RightForeArm",
+            "RightHand", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"]  # fmt: skip
+    found = joint_map(suit)
+    assert found["right_shoulder"] == "RightArm"
+    assert found["right_clavicle"] == "RightShoulder"
+    assert found["left_wrist"] == "LeftHand"
+    assert found["pelvis"] == "Hips"
+    mixamo = joint_map([f"mixamorig:{name}" for name in suit])
+    assert mixamo["right_elbow"] == "mixamorig:RightForeArm"
+    openpose = joint_map(["Nose", "Neck", "RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow",
+                          "LWrist", "MidHip"])  # fmt: skip
+    assert openpose["right_wrist"] == "RWrist"
+    assert openpose["left_shoulder"] == "LShoulder"
+    gait = joint_map(["S:RSHO", "S:RELB", "S:RWRA", "S:LSHO", "S:LELB", "S:LWRA", "S:C7"])
+    assert gait["right_wrist"] == "S:RWRA"
+    assert gait["neck"] == "S:C7"
+    media = joint_map(
+        [
+            "POSE_WORLD_LANDMARKS.RIGHT_WRIST",
+            "POSE_LANDMARKS.RIGHT_WRIST",
+            "RIGHT_HAND_LANDMARKS.INDEX_FINGER_PIP",
+            "RIGHT_HAND_LANDMARKS.THUMB_TIP",
+        ]
+    )
+    assert media["right_wrist"] == "POSE_WORLD_LANDMARKS.RIGHT_WRIST"
+    assert media["right_index_2"] == "RIGHT_HAND_LANDMARKS.INDEX_FINGER_PIP"
+    assert media["right_thumb_tip"] == "RIGHT_HAND_LANDMARKS.THUMB_TIP"
+
+
+def test_a_folder_becomes_a_corpus_that_can_be_checked(tmp_path, capsys):
+    """Table and TextGrid, in centimetres, y up, x to the signer's left: found out, not told."""
+    recording, stops = signing(20.0)
+    folder = tmp_path / "data" / "mine"
+    folder.mkdir(parents=True)
+    file_axes = recording.positions[:, :, [0, 2, 1]] * [-100, 100, 100]
+    names = [f"{joint}_{axis}" for joint in JOINTS for axis in "xyz"]
+    rows = "\n".join(
+        ",".join(f"{v:.4f}" for v in row) for row in file_axes.reshape(len(file_axes), -1)
+    )
+    (folder / "one.csv").write_text(",".join(names) + "\n" + rows + "\n")
+    parts = "".join(
+        f"    intervals [{i + 1}]:\n        xmin = {t.start_s}\n        xmax = {t.end_s}\n"
+        f'        text = "G{i}"\n'
+        for i, t in enumerate(tags_of(stops))
+    )
+    (folder / "one.TextGrid").write_text(
+        'File type = "ooTextFile"\nObject class = "TextGrid"\n\nxmin = 0\nxmax = 20\n'
+        "tiers? <exists>\nsize = 1\nitem []:\n    item [1]:\n"
+        '        class = "IntervalTier"\n        name = "glosses"\n        xmin = 0\n'
+        f"        xmax = 20\n        intervals: size = {len(tags_of(stops))}\n{parts}"
+    )
+    into = tmp_path / "corpora" / "mine"
+    assert main(["corpus", "init", str(folder), "--into", str(into)]) == 0
+    said = capsys.readouterr().out
+    assert "sampling rate in Hz" in said
+    corpus = load_corpus(into)
+    motion = corpus.settings["motion"]
+    assert (motion["format"], motion["unit"], motion["up"], motion["right"]) == (
+        "csv", "cm", "y", "-x",
+    )  # fmt: skip
+    assert corpus.settings["annotation"]["sign_tier"] == "glosses"
+    assert corpus.noise_sd == pytest.approx(0.0005, rel=0.2)
+    out = tmp_path / "out"
+    check = ["corpus", "check", str(into), "--data", str(folder.parent), "--out", str(out)]
+    assert main(check) == 0
+    assert (out / "index.html").stat().st_size > 1000
+    assert main(["corpus", "init", str(folder), "--into", str(into)]) == 1
+    assert "it is there already" in capsys.readouterr().err
+
+
+def test_a_folder_without_motion_is_told(tmp_path, capsys):
+    (tmp_path / "x.bvh").write_text("nothing")
+    assert main(["corpus", "init", str(tmp_path), "--into", str(tmp_path / "c")]) == 1
+    assert "no motion that can be read" in capsys.readouterr().err

@@ -282,13 +282,13 @@ def elan_copy(
 
     elan: whether the annotation at `path` is one, which is then copied with the tiers inserted.
     Else a new file is made of `tags` (all of the recording, in its clock), with the motion's file
-    as its medium. Errors name the file.
+    as its medium; what overlaps on a tier stands on a further one, `NAME (2)`, since ELAN allows
+    no overlap. Errors name the file.
     """
     try:
         if elan:
             return insert_tiers(path.read_bytes(), tiers, clock_offset_s)
-        names = dict.fromkeys(tag.tier for tag in tags)
-        own = [(name, None, [tag for tag in tags if tag.tier == name]) for name in names]
+        own = [(name, None, lane) for name, lane in _lanes(tags)]
         # No date: the same input gives the same bytes.
         content = new_eaf(
             author=MARK, date="1970-01-01T00:00:00+00:00", media_url=media_url, tiers=own
@@ -296,6 +296,30 @@ def elan_copy(
         return insert_tiers(content, tiers)
     except SignkinError as error:
         raise error.at(file=path) from error
+
+
+def _lanes(tags: Sequence[Interval]) -> list[tuple[str, list[Interval]]]:
+    """Return tags by tier, those that overlap on further tiers with free names."""
+    names = list(dict.fromkeys(tag.tier for tag in tags))
+    taken = set(names)
+    out: list[tuple[str, list[Interval]]] = []
+    for name in names:
+        lanes: list[list[Interval]] = []
+        for tag in sorted(tag for tag in tags if tag.tier == name):
+            lane = next((own for own in lanes if own[-1].end_s <= tag.start_s), None)
+            if lane is None:
+                lanes.append([tag])
+            else:
+                lane.append(tag)
+        number = 1
+        for i, lane in enumerate(lanes):
+            called = name
+            while i and called in taken:
+                number += 1
+                called = f"{name} ({number})"
+            out.append((called, lane))
+            taken.add(called)
+    return out
 
 
 # --- new files -----------------------------------------------------------------------------------
