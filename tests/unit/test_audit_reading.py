@@ -58,10 +58,10 @@ def bomb(levels):
 )
 def test_a_file_that_cannot_be_used_is_one_sentence(tmp_path, capsys, text, sentence):
     folder = paper(tmp_path / "p", text.encode("latin-1"))
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(SignkinError, match=sentence):
         read_claims(folder / "claims.yaml")
-    assert time.perf_counter() - start < 20
+    assert time.process_time() - start < 20
     assert main(["audit", str(folder), "--to", str(tmp_path / "page")]) == 1
     assert capsys.readouterr().err.count("\n") == 1
 

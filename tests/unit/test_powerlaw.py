@@ -168,7 +168,8 @@ def test_speed_is_continuous_at_the_boundaries(sign):
 
 def test_time_and_positions_hang_together(truth, sign):
     assert truth.positions.shape == (len(truth.time_s), 3)
-    assert truth.time_s[-1] <= truth.duration_s < truth.time_s[-1] + 1 / 240
+    # The last sample may stand on the end: sums of floats differ by processor.
+    assert truth.time_s[-1] - 1e-9 <= truth.duration_s < truth.time_s[-1] + 1 / 240
     recorded = (truth.active.stop - 1 - truth.active.start) / 240
     assert truth.duration_s == pytest.approx(recorded)  # first_gain: duration
     assert truth.positions[0] == pytest.approx(sign[truth.active.start], abs=1e-9)

@@ -110,7 +110,7 @@ def test_damaged_files_raise_no_foreign_exception(tmp_path, format):
         spec = dict(options) if rng.random() < 0.8 else {}
         if rng.random() < 0.3:
             spec["tiers"] = (rng.choice(["Gloss", "sign", "R", "right"]), {"pattern": "*"})
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             found = read_annotation(path, format=format, **spec)
             read += 1
@@ -118,7 +118,7 @@ def test_damaged_files_raise_no_foreign_exception(tmp_path, format):
         except SignkinError as error:
             assert "\n" not in str(error), (seed, str(error))
             assert len(str(error)) < 1500, seed
-        assert time.perf_counter() - start < LONGEST_S, seed
+        assert time.process_time() - start < LONGEST_S, seed
     assert 0 < read < FILES
 
 

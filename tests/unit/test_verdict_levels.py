@@ -120,6 +120,16 @@ def test_a_pooled_ratio_by_hand():
     assert np.isnan(ratio_rows([hits], [time * 0])).all()
 
 
+def test_a_pooled_ratio_without_a_hit_or_a_false_positive_is_no_number(verdict):
+    table = recorded(np.random.default_rng(4), 0.0).assign(time=1.0)
+    check = {k: v for k, v in PEAK.items() if k != "value"} | {"over": ["hits"], "under": ["time"]}
+    assert verdict({**check, "highest": [4]}, {"t": table})[0] == "holds"
+    for column in ("hits", "time"):
+        told, note = verdict(check, {"t": table.assign(**{column: 0})})
+        assert told == "not testable"
+        assert "a sum of 0 in it" in note
+
+
 @pytest.mark.parametrize(
     "means, found",
     [((0.2, 0.3), "holds"), ((0.3, 0.2), "fails"), ((0.2447, 0.2502), "undecided")],

@@ -124,7 +124,7 @@ def ranked(
     number; or over and under: sums above and below the line of a pooled ratio. Holds where the
     95 % interval of every paired difference lies on the claimed side; fails where one lies on the
     other, at a level shared among all (Bonferroni); else undecided. A peak (highest) is told with
-    its probability.
+    its probability; a small one alone fails nothing: where many tie, each is rarely on top.
     """
     frame = _rows(context, table, where)
     keys = [*unit, *(name for name in clusters if name not in unit)]
@@ -160,7 +160,7 @@ def _ranking(
     means = dict(zip(labels, rows.mean(axis=0), strict=True))
     unknown = [v for v in dict.fromkeys(chain(*pairs)) if np.isnan(means[v])]
     if unknown:
-        raise Missing(f"{table}.csv has no finite ratio for {key} {listed(unknown)}")
+        raise Missing(f"{table}.csv has no ratio for {key} {listed(unknown)}: a sum of 0 in it")
     open_, against = [], []
     try:
         for small, large in pairs:
