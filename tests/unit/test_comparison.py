@@ -13,7 +13,7 @@ from signkin.audit.verdicts import (
     of_simulation,
 )
 from signkin.errors import SignkinError
-from signkin.statistics.comparison import difference, peak
+from signkin.resampling import difference, peak
 
 NAN = float("nan")
 

@@ -7,6 +7,7 @@ rule claims:
         rules.naert2017.input,
         rules.naert2017_durations.input,
         rules.endres2013.input,
+        collect(rules.multiverse.output, corpus=PLAN.tagged),
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         papers=PLAN.claim_files(),
     output:

@@ -17,9 +17,10 @@ from scipy import stats
 from signkin import seeds
 from signkin.audit.checks.groups import ordered_pairs
 from signkin.audit.expressions import evaluate
-from signkin.audit.findings import FAILS, HOLDS, UNDECIDABLE, Finding
+from signkin.audit.findings import FAILS, HOLDS, UNDECIDABLE, UNDECIDED, Finding
 from signkin.audit.registry import Missing, OnCorpus, on_corpus
 from signkin.audit.rounding import allowed, shown
+from signkin.audit.verdicts import from_interval, more_than_luck
 from signkin.errors import SignkinError, listed
 
 DRAWS = 1000  # of the bootstrap
@@ -86,7 +87,8 @@ def measure(
     take: mean, median, sd, min, max, sum, count, share or number (of rows where `value` is
     true), or distinct (number of different values). above, below, at_least, at_most: the number
     itself keeps the bound. contains: the 95 % bootstrap interval of the number (values taken as
-    independent) holds the printed one. equals: the very number.
+    independent) holds the printed one. equals: the very number. A bound within the bootstrap
+    interval of a mean, SD, median or share leaves it undecided.
     """
     frame = _rows(context, table, where)
     values = _numbers(context, table, frame, value)
@@ -115,16 +117,18 @@ def measure(
     if not bounds and contains is None and equals is None:
         raise SignkinError("the check measure has no condition", expected=listed(
             [*CONDITIONS, "contains", "equals"]))  # fmt: skip
-    holds, parts = True, []
+    holds, parts, within = True, [], []
     for name, bound in bounds.items():
         limit = context.number(bound)
+        if interval and low <= limit <= high and low != high:
+            within.append(f"{limit:g}")
         keeps = {
             "above": found > limit,
             "below": found < limit,
             "at_least": found >= limit - 1e-9,
             "at_most": found <= limit + 1e-9,
         }
-        holds &= keeps[name]
+        holds &= keeps[name] or f"{limit:g}" in within
         parts.append(f"is {name.replace('_', ' ')} {limit:g}")
     if contains is not None:
         text = context.text(contains)
@@ -138,9 +142,11 @@ def measure(
     rows = f"n = {len(frame)}"
     negated = [part.replace("is ", "is not ", 1).replace("has ", "has not ", 1) for part in parts]
     word = " and ".join(parts) if holds else " or ".join(negated)
+    if holds and within:
+        word = f"cannot be told from {listed(within)}: its 95 % interval is {interval}"
     why = f"{take} of {value}: {told} ({rows}), which {word}"
-    return [Finding(HOLDS if holds else FAILS, why, recomputed=told, interval=interval,
-                    source=source)]  # fmt: skip
+    verdict = FAILS if not holds else UNDECIDED if within else HOLDS
+    return [Finding(verdict, why, recomputed=told, interval=interval, source=source)]
 
 
 def _bootstrap(
@@ -172,7 +178,10 @@ def correlation(
     method: str = "pearson",
     sign: str = "positive",
 ) -> list[Finding]:
-    """Two columns go together: the 95 % bootstrap interval of r lies on one side of zero."""
+    """Two columns go together: the 95 % bootstrap interval of r lies on the claimed side of zero.
+
+    It fails where it lies on the other side; with zero within it, it is undecided.
+    """
     frame = _rows(context, table, where)
     pairs = pd.DataFrame(
         {"x": _numbers(context, table, frame, x), "y": _numbers(context, table, frame, y)}
@@ -194,9 +203,9 @@ def correlation(
         spread = np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
         drawn.append(np.where(spread > 0, (a * b).sum(axis=1) / np.where(spread > 0, spread, 1), 0))
     low, high = np.quantile(np.concatenate(drawn), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    holds = low > 0 if sign == "positive" else high < 0
+    verdict = from_interval(*((low, high) if sign == "positive" else (-high, -low)))
     why = f"{method} r of {x} and {y} is {r:.3f} ({low:.3f} to {high:.3f}), n = {len(data)}"
-    return [Finding(HOLDS if holds else FAILS, why, recomputed=f"r = {r:.3f}",
+    return [Finding(str(verdict), why, recomputed=f"r = {r:.3f}",
                     interval=f"{low:.3f} to {high:.3f}", source=context.source(table))]  # fmt: skip
 
 
@@ -338,7 +347,9 @@ def beyond_chance(
 
     low, high: columns with the 2.5 and 97.5 % of draws by chance. by: columns that name a row.
     all_of: it holds if every row is above; else if more than the share `more_than` is. Rows
-    without a chance interval count neither way: where they would decide, it is not testable.
+    within the interval of chance leave it undecided; rows below it fail it, if they are more
+    than luck puts there. Rows without a chance interval count neither way: where they would
+    decide, it is not testable.
     """
     frame = _rows(context, table, where)
     unknown = [name for name in by if name not in frame.columns]
@@ -348,7 +359,7 @@ def beyond_chance(
         {n: _numbers(context, table, frame, v) for n, v in (("x", value), ("a", low), ("b", high))}
     ).astype(float)
     names = [" ".join(map(_label, row)) for row in frame[list(by)].to_numpy(dtype=object)]
-    told, above, unsure = [], [], []
+    told, above, unsure, lower = [], [], [], []
     for name, row in zip(names, numbers.itertuples(), strict=True):
         if np.isnan([row.x, row.a, row.b]).any():
             unsure.append(name)
@@ -356,6 +367,8 @@ def beyond_chance(
         told.append(f"{name}: {row.x:.2f} ({row.a:.2f} to {row.b:.2f})")
         if row.x > row.b:
             above.append(name)
+        elif row.x < row.a:
+            lower.append(name)
     least = len(names) if all_of else int(np.floor(more_than * len(names))) + 1
     if len(above) < least <= len(above) + len(unsure):
         raise Missing(f"{table}.csv has no chance interval for {'/'.join(by)} {listed(unsure)}")
@@ -364,7 +377,11 @@ def beyond_chance(
     why += f", not in {listed(under, 9)}" if under else ""
     why += f"; no chance interval for {listed(unsure, 9)}" if unsure else ""
     why += f". Share (chance): {', '.join(told)}"
-    return [Finding(HOLDS if len(above) >= least else FAILS, why,
+    verdict = HOLDS if len(above) >= least else UNDECIDED
+    if len(names) - len(lower) < least and more_than_luck(len(lower), len(names)):
+        verdict = FAILS
+    why += f". Below chance: {listed(lower, 9)}" if lower else ""
+    return [Finding(verdict, why,
                     recomputed=f"{len(above)} of {len(names)} above chance",
                     source=context.source(table))]  # fmt: skip
 
@@ -380,11 +397,17 @@ def order(
     lowest: Sequence[object] = (),
     highest: Sequence[object] = (),
     below: Sequence[Sequence[object]] = (),
+    sd: str = "",
+    n: str = "",
 ) -> list[Finding]:
-    """Groups stand in the claimed order by a number, as they are (no test of the differences).
+    """Groups stand in the claimed order by a number.
 
     key: the column that names the groups. take and value: the number, from aggregates
     (`take: {hits: mean hit_rate}`, `value: hits`); without take the table has one row a group.
+    sd, n: columns with each group's SD and size. With them it holds where every difference is
+    above 0 by Welch's interval (95 %), fails where one is below (at a level shared among all),
+    and else is undecided; without them the numbers count as they are (no test). `ranked` is for
+    groups of the same recordings.
     """
     frame = _rows(context, table, where)
     if take:
@@ -399,6 +422,13 @@ def order(
     if lacking:
         raise Missing(f"{table}.csv has no number for {key} {listed(lacking)}")
     pairs = ordered_pairs(list(values), parts[0], parts[1], parts[2:])
+    if sd and n and pairs:
+        spreads = [_numbers(context, table, frame, column) for column in (sd, n)]
+        groups = {
+            _label(k): (float(m), float(s), float(size))
+            for k, m, s, size in zip(frame[key], numbers, *spreads, strict=True)
+        }
+        return [_by_welch(groups, pairs, f"by {key}", context.source(table))]
     wrong = [(a, b) for a, b in pairs if not values[a] < values[b]]
     told = ", ".join(f"{name}: {shown(values[name], 4)}" for name in names)
     why = f"by {key}, {told}"
@@ -410,6 +440,36 @@ def order(
         return [Finding(UNDECIDABLE, "nothing to compare", source=context.source(table))]
     return [Finding(FAILS if wrong else HOLDS, why, recomputed=told,
                     source=context.source(table))]  # fmt: skip
+
+
+def _by_welch(
+    groups: Mapping[str, tuple[float, float, float]],
+    pairs: Sequence[tuple[str, str]],
+    lead: str,
+    source: str,
+) -> Finding:
+    """Return whether each pair (smaller, larger) stands so. groups: mean, SD and n of each."""
+    against, open_ = [], []
+    for small, large in pairs:
+        (m1, s1, n1), (m2, s2, n2) = groups[small], groups[large]
+        gap, parts = m2 - m1, [s * s / k if k > 1 else np.nan for s, k in ((s1, n1), (s2, n2))]
+        error = float(np.sqrt(sum(parts)))
+        if not error > 0:  # nothing, or no spread, to tell it by
+            open_.append(f"{small} cannot be told from {large} (no standard error)")
+            continue
+        df = sum(parts) ** 2 / (parts[0] ** 2 / (n1 - 1) + parts[1] ** 2 / (n2 - 1))
+        one, shared = (error * stats.t.ppf(1 - (1 - LEVEL) / (2 * k), df) for k in (1, len(pairs)))
+        span = f"({shown(m1, 4)} and {shown(m2, 4)}, difference {gap:.3g} +- {one:.2g})"
+        if gap < -shared:
+            against.append(f"{small} is over {large} {span}")
+        elif not gap > one:
+            open_.append(f"{small} cannot be told from {large} {span}")
+    names = list(dict.fromkeys(name for pair in pairs for name in pair))
+    told = ", ".join(f"{name}: {shown(groups[name][0], 4)}" for name in names)
+    verdict = FAILS if against else UNDECIDED if open_ else HOLDS
+    faults = against or open_
+    why = f"{lead}, {told}" + (f"; {listed(faults, 4)}" if faults else "")
+    return Finding(verdict, why, recomputed=told, source=source)
 
 
 def _label(value: object) -> str:

@@ -9,6 +9,8 @@ from signkin.errors import SignkinError
 
 CONSISTENT, INCONSISTENT, UNDECIDABLE = "consistent", "inconsistent", "undecidable"
 HOLDS, FAILS, NOT_TESTABLE = "holds", "fails", "not testable"
+UNDECIDED, DEPENDS = "undecided", "depends"  # the data allow both; on what is not printed
+BY_CONSTRUCTION = "by construction"  # the data were made with the printed number
 DECISION, DIGITS = "the decision changes", "digits only"
 
 
@@ -16,11 +18,12 @@ DECISION, DIGITS = "the decision changes", "digits only"
 class Finding:
     """The outcome of one check.
 
-    verdict: consistent, inconsistent or undecidable (printed numbers); holds, fails or
-    undecidable (corpora). why: one sentence. printed, recomputed: as text; what a hand
-    calculation with the printed digits gives. interval: what rounding, or chance, allows the
-    recomputed number to be. source: a file with the numbers. item: the row of a table that the
-    finding is about. settings: grain, divisor, df and the like. hand: how to redo it by hand.
+    verdict: consistent, inconsistent or undecidable (printed numbers); holds, fails,
+    undecided, depends or undecidable (corpora). why: one sentence. printed, recomputed: as text;
+    what a hand calculation with the printed digits gives. interval: what rounding, or chance,
+    allows the recomputed number to be. source: a file with the numbers. item: the row of a
+    table that the finding is about. settings: grain, divisor, df and the like. hand: how to redo
+    it by hand.
     nearest: what would be consistent. severity: whether a decision (significant or not) changes.
     fault: the input could not be used; `why` tells where and why.
     """

@@ -1,7 +1,8 @@
 """The ledger: every claim of a paper with its verdict on each piece of evidence.
 
 On printed numbers a claim is `consistent` or `inconsistent`; on a corpus it `holds` or
-`fails`; else it is `not testable`, with what is missing. A simulated corpus tests the method.
+`fails`, is `undecided` where the data allow both, `depends` on what is not printed, or is so `by
+construction`; else it is `not testable`, with what is missing. A simulated corpus tests the method.
 """
 
 from __future__ import annotations
@@ -13,18 +14,22 @@ from pathlib import Path
 import pandas as pd
 
 from signkin.audit import checks as checks_on_print
-from signkin.audit import corpus_checks
+from signkin.audit import corpus_checks, uncertain_checks
 from signkin.audit.findings import (
+    BY_CONSTRUCTION,
     CONSISTENT,
+    DEPENDS,
     FAILS,
     HOLDS,
     INCONSISTENT,
     NOT_TESTABLE,
     UNDECIDABLE,
+    UNDECIDED,
     Finding,
     unusable,
 )
 from signkin.audit.paper import Check, Claim, Paper
+from signkin.audit.readings import under_readings
 from signkin.audit.registry import CORPUS, PUBLISHED, Evidence, Missing, OnCorpus, OnPrint, run
 from signkin.errors import SignkinError
 from signkin.tables import TABLES
@@ -33,6 +38,7 @@ PRINT = "published numbers"
 SIMULATED, REAL = "simulated", "real"
 __all__ = [
     "CORPUS", "PUBLISHED", "Evidence", "Ledger", "audit", "checks_on_print", "corpus_checks",
+    "uncertain_checks",
 ]  # fmt: skip
 
 
@@ -60,7 +66,7 @@ class _Done:
     @property
     def verdict(self) -> str:
         verdicts = {finding.verdict for finding in self.findings}
-        for verdict in (INCONSISTENT, FAILS, CONSISTENT, HOLDS):
+        for verdict in (INCONSISTENT, FAILS, DEPENDS, UNDECIDED, CONSISTENT, HOLDS):
             if verdict in verdicts:
                 return verdict
         return UNDECIDABLE
@@ -83,6 +89,8 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
             for evidence in (None, *corpora):
                 done = _run(paper, claim, evidence)
                 verdict, note = _verdict(claim, evidence, done)
+                if evidence is not None:
+                    verdict, note = _no_sharper(paper, claim, evidence, done, verdict, note)
                 lead = {
                     "paper": paper.folder.name,
                     "id": claim.id,
@@ -170,7 +178,40 @@ def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> 
         if missing and missing not in words:
             words.append(missing)
         return NOT_TESTABLE, "; ".join(words)
+    for level in (DEPENDS, UNDECIDED):
+        if any(d.verdict == level for d in done):
+            parts = [t for t, d in zip(told, done, strict=True) if d.verdict == level]
+            return level, "; ".join(dict.fromkeys(parts))
     return good, "; ".join(dict.fromkeys(told))
+
+
+def _no_sharper(
+    paper: Paper, claim: Claim, evidence: Evidence, done: Sequence[_Done], verdict: str, note: str
+) -> tuple[str, str]:
+    """Return the verdict on a corpus as far as how it was made, and open readings, allow it."""
+    counted = [d for d in done if not d.check.beside]
+    if {"all", evidence.name} & set(claim.made_with_print):
+        kept = [d for d in done if d.verdict != UNDECIDABLE]
+        ruled = not counted and kept and all(d.verdict == HOLDS for d in kept)
+        if verdict in (HOLDS, UNDECIDED) or ruled:  # what fails even there tells of the method
+            told = claim.made_why if ruled else f"{claim.made_why} ({verdict}: {note})"
+            return BY_CONSTRUCTION, told
+    for curve in paper.curves:
+        if curve.claim != claim.id or verdict not in (HOLDS, FAILS, UNDECIDED):
+            continue
+        found = under_readings(curve, OnCorpus(paper, claim, evidence))
+        if found is None:
+            continue
+        spoken = claim.corpora if curve.checks is None else [
+            claim.corpora[i - 1] for i in curve.checks if i <= len(claim.corpora)]  # fmt: skip
+        other = any(d.verdict == FAILS and d.check not in spoken for d in counted)
+        open_ = f"of the readings that keep the print, {found.why(1)}"
+        # Our settings are a reading, too: against all others it depends as well.
+        differ = found.verdict == DEPENDS or {found.verdict, verdict} == {HOLDS, FAILS}
+        if differ and not other and (verdict != FAILS or spoken):
+            return DEPENDS, f"{open_}; under our settings: {verdict}, {note}"
+        note = f"{note}; {open_}"
+    return verdict, note
 
 
 def _told(done: _Done) -> str:

@@ -74,6 +74,8 @@ class Claim:
     corpora_missing: str
     needs: str
     line: int
+    made_with_print: tuple[str, ...] = ()  # corpora made with the printed numbers; or `all`
+    made_why: str = ""
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,9 @@ class Curve:
     reference: str
     holds: str
     line: int
+    keeps: str = ""  # the specifications that keep all that is printed
+    checks: tuple[int, ...] | None = None  # of the claim, that it speaks of; None: all
+    each: str = ""  # a choice that is none: the claim is about each of its levels
 
 
 @dataclass(frozen=True)
@@ -171,7 +176,8 @@ def read_paper(folder: str | Path) -> Paper:
             claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
             label=c["label"], reads=c["reads"], where=c.get("where", ""),
             reference=c.get("reference", ""), holds=c.get("holds", ""),
-            line=lines[("multiverse", i)],
+            line=lines[("multiverse", i)], keeps=c.get("keeps", ""),
+            checks=tuple(c["checks"]) if "checks" in c else None, each=c.get("each", ""),
         )
         for i, c in enumerate(content.get("multiverse", []))
     )  # fmt: skip
@@ -184,6 +190,14 @@ def read_paper(folder: str | Path) -> Paper:
                 expected=listed(seen, 40),
             )
     curves = tuple(curve for curve in curves if curve.claim in seen)
+    sizes = {claim.id: len(claim.corpora) for claim in claims}
+    for curve in curves:
+        if max(curve.checks or (0,)) > sizes[curve.claim]:
+            raise SignkinError(
+                f"the curve of {curve.claim} speaks of check {max(curve.checks or (0,))}",
+                file=path, place=f"line {curve.line}",
+                expected=f"1 to {sizes[curve.claim]}, the claim's checks on corpora",
+            )  # fmt: skip
     return Paper(folder, content["paper"], content["study"], claims, curves,
                  faults=tuple(file.faults))  # fmt: skip
 
@@ -218,4 +232,6 @@ def _claims(
             corpora_missing=claim["corpora"].get("missing", ""),
             needs=claim["needs"],
             line=lines[("claims", i)],
+            made_with_print=tuple(claim.get("by_construction", {}).get("corpora", ())),
+            made_why=claim.get("by_construction", {}).get("why", ""),
         )

@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from scipy import stats
+
 from signkin.errors import SignkinError, listed
 
 
@@ -57,6 +59,17 @@ def from_probability(probability: float, level: float = 0.95) -> Verdict:
     if probability > 1 - edge:
         return Verdict.HOLDS
     return Verdict.FAILS if probability < edge else Verdict.UNDECIDED
+
+
+def more_than_luck(below: int, rows: int, level: float = 0.95) -> bool:
+    """Return whether so many of the rows lie below an interval of chance more than by luck.
+
+    Each lies there in (1 - level) / 2 of cases; one of eight does so too often to mean anything.
+    Rows are taken as independent.
+    """
+    if below < 1:
+        return False
+    return bool(stats.binom.sf(below - 1, rows, (1 - level) / 2) < 1 - level)
 
 
 @dataclass(frozen=True)

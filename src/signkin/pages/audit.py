@@ -14,7 +14,8 @@ from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.studies.one_wrist.report import two_papers
 from signkin.tables import read_table
 
-VERDICTS = ("consistent", "holds", "inconsistent", "fails", "not testable")
+VERDICTS = ("consistent", "holds", "inconsistent", "fails", "undecided", "depends",
+            "by construction", "not testable")  # fmt: skip
 NOTHING = "not testable"
 
 
@@ -58,7 +59,8 @@ def audit_section(results: Path) -> Section:
     text = [
         f"{claims['id'].nunique()} claims of {claims['paper'].nunique()} papers, each on the "
         "printed numbers and on every corpus. On printed numbers a claim is consistent (it can be "
-        "right) or inconsistent; on a corpus it holds or fails.",
+        "right) or inconsistent; on a corpus it holds or fails, is undecided where the data allow "
+        "both, depends on what is not printed, or is so by construction.",
     ]
     text += [
         f"Inconsistent on the paper's own numbers: {row.id} ({row.location}), that "
@@ -89,6 +91,10 @@ def _guide() -> Section:
             "paper was right about its own recordings. A simulated corpus was made to carry the "
             "paper's printed numbers: it tests whether the programs find them, and is no evidence "
             "about people.",
+            "Undecided: the data allow both; the interval of the difference holds 0, or a peak is "
+            "not sure to be where it is claimed. Depends: readings that keep all that is printed, "
+            "or what is meant by chance, decide; the note tells how many say what. By "
+            "construction: the data were made with the printed number, so that agreement is none.",
             "Not testable: a number, a table or a definition is missing; the note says which. "
             "Where a claim's words leave room ('near', 'visibly'), the reading beside each check "
             "says how they were taken.",
@@ -238,7 +244,7 @@ def _by_reading(rows: Sequence[Mapping[str, object]]) -> list[dict[str, object]]
 
 def _many(part: pd.DataFrame) -> dict[str, str]:
     counts = part["verdict"].value_counts()
-    bad = [v for v in ("inconsistent", "fails") if v in counts]
+    bad = [v for v in ("inconsistent", "fails", "depends", "undecided") if v in counts]
     best = bad[0] if bad else str(counts.index[0])
     told = ", ".join(f"{n} {verdict}" for verdict, n in counts.items())
     others = part[part["verdict"] != counts.index[0]]

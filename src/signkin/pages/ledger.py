@@ -52,7 +52,7 @@ def told(ledger: Ledger) -> str:
     lines = []
     for row in ledger.claims.itertuples(index=False):
         where = "" if row.evidence_kind == "published numbers" else f" [{row.evidence}]"
-        head = f"{row.id:5s} {row.verdict:13s}{where} "
+        head = f"{row.id:5s} {row.verdict:15s}{where} "
         lines.append(
             textwrap.fill(
                 f"{head}{row.note}", 110, subsequent_indent=" " * 20, max_lines=3,

@@ -25,8 +25,9 @@ TABLES = (
             text("interval", "what rounding allows them to be; on a corpus, 95 % by bootstrap"),
             text(
                 "verdict",
-                "consistent or inconsistent (published numbers), holds or fails (corpora), or "
-                "not testable",
+                "consistent or inconsistent (published numbers); holds, fails, undecided (the data "
+                "allow both), depends (on what is not printed) or by construction (made with the "
+                "printed number), on corpora; or not testable",
             ),
             text("note", "why, or what is missing"),
             text("source", "tables behind it"),
@@ -48,7 +49,11 @@ TABLES = (
                 "interval",
                 "what rounding allows; on a corpus, 95 % by bootstrap, or what chance gives",
             ),
-            text("verdict", "consistent, inconsistent, undecidable; holds, fails; not testable"),
+            text(
+                "verdict",
+                "consistent, inconsistent, undecidable; holds, fails, undecided, depends; not "
+                "testable",
+            ),
             text("why", "one sentence"),
             text("source", "table behind it"),
         ),

@@ -193,3 +193,25 @@ def _spread(
 def _share_above(found: Array) -> float:
     there = found[~np.isnan(found)]
     return float(((there > 0) + 0.5 * (there == 0)).mean())
+
+
+def ratio_rows(over: Sequence[ArrayLike], under: Sequence[ArrayLike]) -> Array:
+    """Return rows whose mean is a ratio of pooled sums, to be drawn as those of a mean.
+
+    over, under: sums above and below the line, (N, K) each. The ratio is taken as linear about
+    its estimate (Taylor, to first order). NaN where a sum below the line is 0.
+    """
+    parts = [
+        (sign, np.asarray(part, dtype=float))
+        for sign, group in ((1, over), (-1, under))
+        for part in group
+    ]
+    means = [(sign, part, part.mean(axis=0)) for sign, part in parts]
+    ratio = np.ones(parts[0][1].shape[1])
+    slope = np.zeros(parts[0][1].shape)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for sign, part, mean in means:
+            ratio = ratio * mean**sign
+            slope = slope + sign * (part / mean - 1)
+    out = ratio + ratio * slope
+    return np.where(np.isfinite(out), out, np.nan)
