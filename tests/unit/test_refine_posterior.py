@@ -9,7 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signkin import SignkinError
-from signkin.coarticulation import TagModel, learn_tag_model, refine_posterior
+from signkin.coarticulation import (
+    TagModel,
+    jitter_between,
+    learn_tag_model,
+    refine_posterior,
+)
 from signkin.coarticulation import refined_posterior as told
 from signkin.coarticulation.tag_order import in_order
 from tools.refine_posterior import calibration, simulated
@@ -160,6 +165,23 @@ def test_learning_never_loses_likelihood():
     first = refine_posterior(tags, minima, model=start).log_likelihood
     learned = learn_tag_model([(tags, minima, None)], start)
     assert refine_posterior(tags, minima, model=learned).log_likelihood > first
+
+
+def test_two_annotators_tell_the_jitter():
+    rng = np.random.default_rng(12)
+    truth = np.cumsum(rng.uniform(0.3, 0.8, 400)).reshape(-1, 2)
+    first = truth + rng.normal(0, 0.025, truth.shape)
+    second = truth + 0.06 + rng.normal(0, 0.025, truth.shape)
+    second[::20] += 0.2  # gross errors
+    model = jitter_between(first, second)
+    assert model.sd_s == pytest.approx(0.025, rel=0.15)
+    assert 0.002 < model.gross < 0.05
+    minima = truth.ravel() + 0.01
+    learned = learn_tag_model([(first, minima, None)], model, jitter_known=True)
+    assert (learned.sd_s, learned.gross) == (model.sd_s, model.gross)
+    assert learned.bias_s == pytest.approx(0.01, abs=0.005)
+    with pytest.raises(SignkinError, match="0 pairs of tags of two annotators"):
+        jitter_between(first, np.empty((0, 2)))
 
 
 def test_ten_minutes_of_signing_take_little():

@@ -12,6 +12,7 @@ from signkin.coarticulation.duration import (
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.refined_posterior import (
     RefinedPosterior,
+    jitter_between,
     learn_tag_model,
     refine_posterior,
 )
@@ -34,6 +35,7 @@ __all__ = [
     "euclidean_distance",
     "geodesic_distance",
     "interpolate",
+    "jitter_between",
     "learn_tag_model",
     "refine",
     "refine_each",

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from signkin.coarticulation.tag_model import (
     DEPTHS,
     FEWEST,
+    MOST_GROSS,
     REACH_S,
     STEP_S,
     Tagged,
@@ -115,11 +116,14 @@ def refine_posterior(
 def learn_tag_model(
     recordings: Sequence[tuple[ArrayLike, ArrayLike, ArrayLike | None]],
     model: TagModel | None = None,
+    *,
+    jitter_known: bool = False,
 ) -> TagModel:
     """Learn how tags and minima of one hand lie about boundaries, from several recordings.
 
     recordings: (intervals_s, minima_s, prominence) of each, as `refine_posterior` has them.
-    model: where to start; what is not learnt stays (see `TagModel`).
+    model: where to start; what is not learnt stays (see `TagModel`), the jitter too where it is
+    known, as from two annotators (`jitter_between`).
     """
     sets = []
     for intervals, minima_s, prominence in recordings:
@@ -127,7 +131,33 @@ def learn_tag_model(
         forward = tags[tags[:, 1] > tags[:, 0]]
         if len(forward):
             sets.append(Tagged(np.unique(forward), minima, depth))
-    return learnt(sets, TagModel() if model is None else model)
+    return learnt(sets, TagModel() if model is None else model, jitter_known=jitter_known)
+
+
+def jitter_between(first_s: ArrayLike, second_s: ArrayLike) -> TagModel:
+    """Return a model with the jitter of two annotators of the same signing, taken as alike.
+
+    first_s, second_s: (N, 2), (M, 2) starts and ends, s. Starts are compared with starts and ends
+    with ends, where each is the other's nearest. Their differences have twice the variance of one
+    annotator's jitter; it is taken from the median of their absolute size about a common lead,
+    which gross errors do not move. Differences beyond four SDs are the gross errors of one or the
+    other. A lead that both share cannot be seen; `learn_tag_model` learns it from the minima.
+    Raises SignkinError with fewer than FEWEST pairs.
+    """
+    first, second = (np.asarray(x, dtype=float).reshape(-1, 2) for x in (first_s, second_s))
+    differences: list[Floats] = []
+    for edge in (0, 1) if len(first) and len(second) else ():
+        apart = np.abs(first[:, None, edge] - second[:, edge])
+        mine, theirs = apart.argmin(axis=1), apart.argmin(axis=0)
+        pairs = np.flatnonzero((theirs[mine] == np.arange(len(first))) & (apart.min(axis=1) < 1))
+        found = first[pairs, edge] - second[mine[pairs], edge]
+        differences.append(found - np.median(found) if len(found) else found)
+    all_ = np.concatenate(differences) if differences else np.empty(0)
+    if len(all_) < FEWEST:
+        raise _error(f"{len(all_)} pairs of tags of two annotators", f"{FEWEST} or more")
+    spread = max(1.4826 * float(np.median(np.abs(all_))), 0.006)
+    gross = float(np.mean(np.abs(all_) > 4 * spread)) / 2
+    return TagModel(sd_s=spread / np.sqrt(2), gross=float(np.clip(gross, 0.002, MOST_GROSS)))
 
 
 def quantiles(p: Floats, grid_s: Floats, levels: Sequence[float], step_s: float) -> Floats:

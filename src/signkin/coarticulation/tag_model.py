@@ -135,14 +135,16 @@ def posterior(
     return in_order(weights, tagged.first, own)
 
 
-def learnt(recordings: Sequence[Tagged], model: TagModel) -> TagModel:
+def learnt(
+    recordings: Sequence[Tagged], model: TagModel, *, jitter_known: bool = False
+) -> TagModel:
     """Return the model that makes tags and minima most likely (EM on the marginal likelihood).
 
     recordings: of one hand; those without a minimum teach nothing. model: where to start; its
     minimum_sd_s, gross_sd_s and the number of classes of depth stay. With fewer than FEWEST tags
     it stays whole. In the end all spread of the minima about the tags counts as jitter: how much
     of it is the minima's own does not show, and their errors can be opposite to the tag's, so
-    that jitter learnt as what is left over comes out too small.
+    that jitter learnt as what is left over comes out too small. jitter_known: sd_s and gross stay.
     """
     used = [r for r in recordings if len(r.minima_s) and len(r.times_s)]
     tags = sum(len(r.times_s) for r in used)
@@ -154,10 +156,15 @@ def learnt(recordings: Sequence[Tagged], model: TagModel) -> TagModel:
     for _ in range(ROUNDS):
         sums = [_expected(r, model, o, n) for r, o, n in zip(used, own, near, strict=True)]
         total = {key: np.sum([s[key] for s in sums], axis=0) for key in sums[0]}
-        model = _improved(model, total, tags)
+        better = _improved(model, total, tags)
+        if jitter_known:
+            better = replace(better, sd_s=model.sd_s, gross=model.gross)
+        model = better
         if total["log"] - before < SETTLED * tags:
             break
         before = float(total["log"])
+    if jitter_known:
+        return model
     return replace(model, sd_s=float(np.hypot(model.sd_s, model.minimum_sd_s)))
 
 
