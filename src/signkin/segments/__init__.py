@@ -2,8 +2,8 @@
 
 from signkin.segments.boundaries import Hits, boundary_hits, hausdorff_s, offsets_s
 from signkin.segments.frames import boundary_f1, frame_labels, segment_f1
-from signkin.segments.overlap import Overlap, covering, overlap, share_of_segments
-from signkin.segments.score import as_segments, score, shuffled
+from signkin.segments.lengths import Overlap, covering, overlap, share_of_segments
+from signkin.segments.scores import as_segments, score, shuffled
 
 __all__ = [
     "Hits",

@@ -50,7 +50,7 @@ def run_score(told: argparse.Namespace) -> int:
 
 
 def _score(told: argparse.Namespace) -> int:
-    from signkin.segments.score import as_segments, score
+    from signkin.segments.scores import as_segments, score
 
     tiers = told.tier
     if len(tiers) > 2 or (told.reference is None and len(set(tiers)) != 2):

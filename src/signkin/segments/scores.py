@@ -13,7 +13,7 @@ from signkin.annotation import Interval
 from signkin.errors import SignkinError
 from signkin.segments.boundaries import Hits, boundary_hits, hausdorff_s, offsets_s
 from signkin.segments.frames import RATE_HZ, boundary_f1, frame_labels, mean_f1, segment_f1
-from signkin.segments.overlap import covering, overlap, share_of_segments
+from signkin.segments.lengths import covering, overlap, share_of_segments
 
 Floats = NDArray[np.float64]
 Key = tuple[str, str, str]  # measure, of what, unit
