@@ -15,7 +15,7 @@ PLACE = "flow"
 OPEN = ("studies",)
 PARTS = (
     "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics",
-    "figures", "report", "audit", "stages", "studies", "pages", "corpus", "survey",
+    "figures", "report", "audit", "stages", "studies", "pages", "corpus", "survey", "segments",
 )  # fmt: skip
 
 

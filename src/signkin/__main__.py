@@ -2,7 +2,7 @@
 
 `signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
 utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
-at corpora before a run.
+at corpora before a run, `signkin score` compares two segmentations.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
+from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
 
 
@@ -36,11 +37,14 @@ def main(arguments: list[str] | None = None) -> int:
         speak.add_argument(f"--{key}", help=f"instead of synthesis.{key} in config.yaml")
     commands.add_parser("audit", help="check the claims of a paper; `audit list`, `check`, `init`")
     add_parser(commands)
+    segments.add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
     if for_snakemake:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
+    if told.command == "score":
+        return segments.run_score(told)
     return run_corpus(told) if told.command == "corpus" else say(told)
 
 

@@ -68,6 +68,7 @@ rule naert_tables:
         published=NAERT / "table2.csv",
     output:
         boundaries="<results>/naert2017/{corpus}/boundaries.csv",
+        posteriors="<results>/naert2017/{corpus}/boundary_posteriors.csv",
         sign_types="<results>/naert2017/{corpus}/sign_types.csv",
         transitions="<results>/naert2017/{corpus}/transitions.csv",
         lexicon="<results>/naert2017/{corpus}/lexicon.csv",
@@ -116,9 +117,10 @@ rule naert_figures:
 
 
 rule write_elan:
-    """Refined tags written back: the .eaf with two tiers added."""
+    """Refined tags written back: the .eaf with tiers added, posteriors too."""
     input:
         boundaries=rules.naert_tables.output.boundaries,
+        posteriors=rules.naert_tables.output.posteriors,
         about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         annotation=lambda w: PLAN.annotation_files(w.corpus),

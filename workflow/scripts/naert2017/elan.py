@@ -14,6 +14,7 @@ with job(snakemake):
         tables.read_table(snakemake.input.boundaries, "boundaries"),
         tables.read_table(snakemake.input.intervals, "intervals"),
         elan=snakemake.params.elan,
+        posteriors=tables.read_table(snakemake.input.posteriors, "boundary_posteriors"),
     )
     for name, content in copies.items():
         (folder / name).write_bytes(content)

@@ -11,6 +11,7 @@ with job(snakemake):
     from signkin.figures.style import paper_style, save
     from signkin.studies.naert2017.figures.refinement_quality import draw_quality
     from signkin.studies.naert2017.lexicon import lexicon_use
+    from signkin.studies.naert2017.posteriors import boundary_posteriors
     from signkin.studies.naert2017.refinement import refinement
     from signkin.studies.naert2017.table1 import table1
     from signkin.studies.naert2017.table2 import table2
@@ -38,6 +39,10 @@ with job(snakemake):
     )
     made = {
         "boundaries": ("boundaries", boundaries),
+        "posteriors": (
+            "boundary_posteriors",
+            boundary_posteriors(corpus, tagged, intervals, minima),
+        ),
         "sign_types": ("sign_types", sign_types),
         "transitions": ("transitions", moves),
         "left_out": ("transitions", left_out(moves)),

@@ -1,0 +1,213 @@
+"""What tags and speed minima say of a boundary, and how sure they are, learnt without truth.
+
+A tag stands beside its boundary by an offset (lead or lag, by edge) and jitter, or, with a small
+probability, by a gross error. A boundary shows as a minimum of speed near it with a probability
+(`detection`); all other minima are a Poisson process (`clutter_per_s`). Where boundaries and
+others differ in the depth of their minima, depth tells them apart. A minimum may belong to the
+boundary or not, and both are summed over, as trackers do it (probabilistic data association,
+Bar-Shalom & Tse 1975).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signkin.coarticulation.tag_order import in_order
+
+Floats = NDArray[np.float64]
+
+REACH_S = 0.4  # a boundary is at most this far from its tag
+STEP_S = 0.005  # of the grid of times
+DEPTHS = 4  # classes of depth, with as many minima in each
+FEWEST = 20  # tags to learn from; with fewer the model stays as given
+NONE = -1
+EVEN = 0.5  # as tags: how much equal shares of the classes of depth count before the data
+MOST_GROSS = 0.1  # more would be no tagging
+ROUNDS = 30
+SETTLED = 3e-4  # gain of log likelihood a tag that ends the learning
+
+
+@dataclass(frozen=True)
+class TagModel:
+    """How tags and minima lie about boundaries; times in seconds.
+
+    bias_s: boundary minus tag. sd_s: SD of the jitter. gross: share of
+    tags with a gross error, whose SD is gross_sd_s. minimum_sd_s: SD of a minimum about its
+    boundary; only its sum with sd_s shows in the data, so it is assumed, not learnt.
+    detection: probability that a boundary has a minimum. clutter_per_s: other minima a second.
+    depth_ratio: how much likelier each class of depth, shallow to deep, is for a boundary.
+    """
+
+    bias_s: float = 0.0
+    sd_s: float = 0.04
+    gross: float = 0.05
+    gross_sd_s: float = 0.15
+    minimum_sd_s: float = 0.018
+    detection: float = 0.85
+    clutter_per_s: float = 1.5
+    depth_ratio: tuple[float, ...] = (1.0,) * DEPTHS
+
+
+@dataclass(frozen=True, eq=False)
+class Tagged:
+    """The tags of one hand in one recording, on a grid of time.
+
+    times_s: (K,), rising. minima_s (M,), rising; depth (M,) class of each. evidence: (K, W), what
+    else is known, as a factor.
+    """
+
+    times_s: Floats
+    minima_s: Floats
+    depth: NDArray[np.int64]
+    reach_s: float = REACH_S
+    step_s: float = STEP_S
+    evidence: Floats | None = None
+
+    @property
+    def width(self) -> int:
+        """Frames of the grid around each tag."""
+        return 2 * round(self.reach_s / self.step_s) + 1
+
+    @property
+    def first(self) -> NDArray[np.int64]:
+        """First frame of the grid around each tag, (K,)."""
+        return np.rint(self.times_s / self.step_s).astype(np.int64) - (self.width // 2)
+
+    @property
+    def grid_s(self) -> Floats:
+        """Times of the grid around each tag, (K, W)."""
+        return np.asarray((self.first[:, None] + np.arange(self.width)) * self.step_s)
+
+
+def normal(x: Floats, sd: float) -> Floats:
+    """Return the density of a normal distribution about 0."""
+    return np.asarray(np.exp(-0.5 * (x / sd) ** 2) / (sd * np.sqrt(2 * np.pi)))
+
+
+def minima_about(tagged: Tagged) -> NDArray[np.int64]:
+    """Return for each tag the minima that may be its boundary's own, (K, A); -1: none.
+
+    The first of a row is none; rows are filled up with none.
+    """
+    low = np.searchsorted(tagged.minima_s, tagged.times_s - tagged.reach_s)
+    high = np.searchsorted(tagged.minima_s, tagged.times_s + tagged.reach_s, side="right")
+    most = int((high - low).max(initial=0))
+    found = low[:, None] + np.arange(-1, most)
+    found[(found < low[:, None]) | (found >= high[:, None])] = NONE
+    return found
+
+
+def near_minima(tagged: Tagged, own: NDArray[np.int64], model: TagModel) -> Floats:
+    """Return the density of each tag's minima about each time of its grid, (K, A, W); 0: none."""
+    away = np.append(tagged.minima_s, np.inf)[own][:, :, None] - tagged.grid_s[:, None]
+    return normal(away, model.minimum_sd_s)
+
+
+def prior_parts(tagged: Tagged, model: TagModel) -> tuple[Floats, Floats]:
+    """Return the probability of each time by jitter and by gross error, (K, W) each."""
+    away = tagged.grid_s - (tagged.times_s + model.bias_s)[:, None]
+    parts = []
+    for share, sd in ((1 - model.gross, model.sd_s), (model.gross, model.gross_sd_s)):
+        density = normal(away, sd) + 1e-300
+        parts.append(share * density / density.sum(axis=1, keepdims=True))
+    return parts[0], parts[1]
+
+
+def posterior(
+    tagged: Tagged, model: TagModel, own: NDArray[np.int64], near: Floats
+) -> tuple[Floats, float]:
+    """Return the probability of each time and own minimum (K, A, W), and the log likelihood."""
+    classes = np.append(tagged.depth, 0)[own]
+    likelihood = (
+        near
+        * (model.detection / model.clutter_per_s * np.asarray(model.depth_ratio)[classes])[
+            :, :, None
+        ]
+    )
+    likelihood[:, 0] = 1 - model.detection
+    weights = likelihood * sum(prior_parts(tagged, model))[:, None]  # type: ignore[index]
+    if tagged.evidence is not None:
+        weights = weights * tagged.evidence[:, None]
+    return in_order(weights, tagged.first, own)
+
+
+def learnt(
+    recordings: Sequence[Tagged], model: TagModel, *, jitter_known: bool = False
+) -> TagModel:
+    """Return the model that makes tags and minima most likely (EM on the marginal likelihood).
+
+    recordings: of one hand; those without a minimum teach nothing. model: where to start; its
+    minimum_sd_s, gross_sd_s and the number of classes of depth stay. With fewer than FEWEST tags
+    it stays whole. In the end all spread of the minima about the tags counts as jitter: how much
+    of it is the minima's own does not show, and their errors can be opposite to the tag's, so
+    that jitter learnt as what is left over comes out too small. jitter_known: sd_s and gross stay.
+    """
+    used = [r for r in recordings if len(r.minima_s) and len(r.times_s)]
+    tags = sum(len(r.times_s) for r in used)
+    if tags < FEWEST:
+        return model
+    own = [minima_about(r) for r in used]
+    near = [near_minima(r, o, model) for r, o in zip(used, own, strict=True)]
+    before = -np.inf
+    for _ in range(ROUNDS):
+        sums = [_expected(r, model, o, n) for r, o, n in zip(used, own, near, strict=True)]
+        total = {key: np.sum([s[key] for s in sums], axis=0) for key in sums[0]}
+        better = _improved(model, total, tags)
+        if jitter_known:
+            better = replace(better, sd_s=model.sd_s, gross=model.gross)
+        model = better
+        if total["log"] - before < SETTLED * tags:
+            break
+        before = float(total["log"])
+    if jitter_known:
+        return model
+    return replace(model, sd_s=float(np.hypot(model.sd_s, model.minimum_sd_s)))
+
+
+def _expected(
+    tagged: Tagged, model: TagModel, own: NDArray[np.int64], near: Floats
+) -> dict[str, Floats]:
+    """Return the expected sums that the next model is made of."""
+    found, log = posterior(tagged, model, own, near)
+    core, gross = prior_parts(tagged, model)
+    with_core = found.sum(axis=1) * core / (core + gross)
+    away = tagged.grid_s - tagged.times_s[:, None]
+    classes = len(model.depth_ratio)
+    depth = np.append(tagged.depth, 0)
+    minimum = np.bincount(depth[own].ravel(), (found.sum(axis=2) * (own >= 0)).ravel(), classes)
+    inside = np.setdiff1d(own, [NONE])
+    spans = np.minimum(np.diff(tagged.times_s), 2 * tagged.reach_s).sum() + 2 * tagged.reach_s
+    return {
+        "log": np.asarray(log),
+        "core": with_core.sum(),
+        "first": (with_core * away).sum(),
+        "second": (with_core * away**2).sum(),
+        "minimum": minimum,
+        "minima": np.bincount(tagged.depth[inside], minlength=classes).astype(float),
+        "seconds": np.asarray(spans),
+    }
+
+
+def _improved(model: TagModel, total: dict[str, Floats], tags: int) -> TagModel:
+    core = float(total["core"])
+    bias = float(total["first"]) / core
+    spread = float(total["second"]) / core - bias**2
+    boundary = total["minimum"]
+    clutter = np.maximum(total["minima"] - boundary, 0) + 1.0  # one more: no class is impossible
+    # Equal shares count as much as half the tags, or few minima would rule a class out for good.
+    even = EVEN * tags / len(boundary)
+    ours, others = boundary + even, clutter + even
+    ratio = (ours / ours.sum()) / (others / others.sum())
+    return replace(
+        model,
+        bias_s=bias,
+        sd_s=max(float(np.sqrt(spread)), 0.004),
+        gross=float(np.clip(1 - core / tags, 0.002, MOST_GROSS)),
+        detection=float(np.clip(boundary.sum() / tags, 0.02, 0.995)),
+        clutter_per_s=float(clutter.sum() / total["seconds"]),
+        depth_ratio=tuple(float(x) for x in ratio),
+    )
