@@ -67,4 +67,6 @@ def setup(app: object) -> None:
     """Called by Sphinx."""
     app.connect("source-read", with_api)  # type: ignore[attr-defined]
     # Drawn where the page is read on the web; drawing it here would want a script from elsewhere.
-    app.add_lexer("mermaid", TextLexer)  # type: ignore[attr-defined]
+    # csv and expect: files and what is expected of the walk-through, which a test runs.
+    for plain in ("mermaid", "csv", "expect"):
+        app.add_lexer(plain, TextLexer)  # type: ignore[attr-defined]
