@@ -12,6 +12,7 @@ import os
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+from shlex import quote
 
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
@@ -69,6 +70,19 @@ def say(told: argparse.Namespace) -> int:
     return 0
 
 
+def refuse_unquotable(interpreter: str) -> None:
+    """Refuse a Python whose path a shell takes apart: Snakemake calls it without quotes."""
+    from signkin.errors import SignkinError
+
+    if quote(interpreter) != interpreter:
+        raise SignkinError(
+            f"the path of Python holds a space or a sign that a shell takes for its own: "
+            f"{interpreter}",
+            expected="letters, digits and . _ - + = : , @ % /",
+            todo="Move the checkout to such a path, or set up its .venv anew there.",
+        )
+
+
 def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     """Run Snakemake in a folder (its config.yaml, its results), one run at a time.
 
@@ -88,6 +102,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         home = workflow_home()
         if (folder / "config.yaml").is_file():
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
+        refuse_unquotable(sys.executable)
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",

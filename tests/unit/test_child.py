@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+from signkin import SignkinError
+from signkin.__main__ import refuse_unquotable
 from signkin.lock import held
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and locks of POSIX")
@@ -78,3 +80,10 @@ def test_the_child_holds_the_lock(tmp_path):
         child.kill()
         child.wait()
     assert free(lock)
+
+
+@pytest.mark.parametrize("folder", ["my signs", "a&b", "x[1]", "it's"])
+def test_a_python_that_a_shell_takes_apart_is_refused(folder):
+    with pytest.raises(SignkinError, match="the path of Python holds"):
+        refuse_unquotable(f"/home/me/{folder}/.venv/bin/python")
+    refuse_unquotable("/home/me/signs-2.0_a/.venv/bin/python3.11")
