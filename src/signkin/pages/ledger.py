@@ -56,7 +56,7 @@ def told(ledger: Ledger) -> str:
         lines.append(
             textwrap.fill(
                 f"{head}{row.note}", 110, subsequent_indent=" " * 20, max_lines=3,
-                placeholder=" ...",
+                placeholder=" ...", break_on_hyphens=False,
             )
         )  # fmt: skip
     counts = ledger.claims.groupby("evidence", sort=False)["verdict"].value_counts(sort=False)
