@@ -29,7 +29,7 @@ def run_child(
     )  # fmt: skip
 
     def forward(number: int, frame: FrameType | None) -> None:
-        child.send_signal(number)
+        child.terminate()  # not the same signal: under nohup the child would ignore SIGHUP
 
     before = {
         number: signal.signal(number, forward)

@@ -105,7 +105,7 @@ CASES = {
         edit("m1.csv", riddle),
         r"recording m1, joint right_wrist: 50% of the frames have no position...at most 20%",
     ),
-    "rate of 0": (rate_of_zero, r"corpus.yaml, key motion.rate_hz: 0 is less than or equal to"),
+    "rate of 0": (rate_of_zero, r"corpus.yaml, key motion.rate_hz: 0; expected greater than 0"),
     "truncated bvh": (as_bvh, r"m1.csv, line 20: 6 frames, where the header says 900"),
     "truncated pose": (as_pose, r"m1.csv, 14 bytes: not readable as a .pose file"),
     "doubled gloss": (doubled_gloss, r"signs.csv, line 3: gloss 'CAKE' stands in line 2 already"),

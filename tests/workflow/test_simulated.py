@@ -148,7 +148,10 @@ def test_the_tags_are_written_back_beside_the_old_ones(simulated_run):
         old = simulated_run.results / f"lsf-sim/simulated/{name}.eaf"
         new = simulated_run.results / f"naert2017/lsf-sim/eaf/{name}.eaf"
         a, b = read_annotation(old), read_annotation(new)
-        assert set(b.tiers) - set(a.tiers) == {"signkin refined right", "signkin refined left"}
+        hands = ("right", "left")
+        moved = {f"signkin refined {hand}" for hand in hands}
+        posterior = {f"signkin posterior {h} {edge}" for h in hands for edge in ("start", "end")}
+        assert set(b.tiers) - set(a.tiers) == moved | posterior
         for tier in a.tiers:
             assert a.tier(tier) == b.tier(tier)
         refined = table(simulated_run, "boundaries").query("recording == @name & hand == 'right'")

@@ -186,12 +186,6 @@ def contradictions(settings: Settings) -> Iterator[tuple[str, str, str]]:
     ):
         if max(orders) >= bins:
             yield place, f"order {max(orders)} with {bins} bins", f"orders below {bins}"
-    # Fig. 3 shows the fit of order 3, and what is made with it.
-    for place, orders in (
-        ("binning.orders", binning.orders), ("binning.fitted_orders", binning.fitted_orders),
-    ):  # fmt: skip
-        if 3 not in orders:
-            yield place, f"orders {', '.join(map(str, orders))}", "order 3 among them (Fig. 3)"
     own = binning.continuous
     if own.longest_segment_s < (own.order + 1) * own.bin_s:
         yield (
@@ -229,6 +223,19 @@ def contradictions(settings: Settings) -> Iterator[tuple[str, str, str]]:
                 "each name once a corpus",
             )
         made.add((wanted.corpus, wanted.name))
+
+
+def check_shown_orders(settings: Settings, file: str | Path) -> None:
+    """Refuse a run without order 3, whose fits Fig. 3 of Endres et al. shows."""
+    binning = settings.binning
+    for place, orders in (
+        ("binning.orders", binning.orders), ("binning.fitted_orders", binning.fitted_orders),
+    ):  # fmt: skip
+        if 3 not in orders:
+            raise SignkinError(
+                f"orders {', '.join(map(str, orders))}", file=file, place=f"key {place}",
+                expected="order 3 among them, which Fig. 3 shows", todo=HINT,
+            )  # fmt: skip
 
 
 def cutoffs(settings: Settings) -> Iterator[tuple[str, float]]:

@@ -18,7 +18,7 @@ from signkin.corpus import (
 from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
 from signkin.settings import Settings, load_settings
-from signkin.settings.checks import check_rate
+from signkin.settings.checks import check_rate, check_shown_orders
 
 
 @dataclass(frozen=True)
@@ -157,6 +157,7 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
     lie unless the working directory has homes of its own of these names.
     """
     settings = load_settings(config)
+    check_shown_orders(settings, "config.yaml")
     root = Path(root)
     corpora = load_corpora(
         _own_or_shipped(settings.corpora_dir, root),
