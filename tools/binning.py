@@ -19,7 +19,7 @@ from signkin.binning import Posterior, fit_many
 from signkin.binning.hit_rate import hit_rate
 from signkin.corpus import Corpus, data_folder, load_corpus
 from signkin.recording import Recording
-from signkin.settings import Settings, load_settings
+from signkin.settings import Settings
 from signkin.stages.ingest import ingest
 from signkin.stages.wrists import in_bins
 from signkin.studies.endres2013.posteriors import (
@@ -50,7 +50,7 @@ from tools.binning_tables import (
     of_recovery,
 )
 from tools.numbers import table
-from tools.shipped import shipped
+from tools.shipped import changed, shipped
 
 ROOT = Path(__file__).resolve().parents[1]
 SINGLE = ("isl-sim", "isl-kinect", "auslan-hq")
@@ -99,16 +99,9 @@ VARIANTS = {
 }
 
 
-def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
+def with_binning(settings: Settings, changes: Mapping[str, object]) -> Settings:
     """Return the settings with keys below `binning` changed."""
-    out = settings.model_dump(exclude={"corpora"})
-    for key, value in changes.items():
-        *above, last = key.split(".")
-        at = out["binning"]
-        for name in above:
-            at = at[name]
-        at[last] = value
-    return load_settings(out)
+    return changed(settings, {f"binning.{key}": value for key, value in changes.items()})
 
 
 def takes(name: str, results: Path, data: Path) -> Takes | None:
@@ -220,7 +213,7 @@ def choices(of: Takes, settings: Settings) -> dict[str, Outcome]:
     print("|---" * 7 + "|")
     found = {}
     for label, variant in VARIANTS.items():
-        one = found[label] = outcome(of, changed(settings, variant.config), variant)
+        one = found[label] = outcome(of, with_binning(settings, variant.config), variant)
         print(
             f"| {label} | {one.m()} | {one.peak} | {one.middle} | {one.truths_peak} "
             f"| {one.rates} (n = {one.truths}) | {one.left} of {one.recorded} |",
@@ -265,7 +258,7 @@ def recovery(of: Takes, settings: Settings) -> dict[tuple[str, float, float], li
         for b in (0.1, 0.001):
             for share in (1.0, 0.1, 0.0125):
                 changes = {"prior.concentration": b, "recovery_noise": share}
-                cells = found[kind, b, share] = recovered(of, changed(settings, changes), kind)
+                cells = found[kind, b, share] = recovered(of, with_binning(settings, changes), kind)
                 print(f"| {b:g} | {share:g} | " + " | ".join(cells) + " |", flush=True)
     return found
 
@@ -313,7 +306,7 @@ def nearest(of: Takes, settings: Settings) -> dict[str, Outcome]:
         changes = {
             "prior.noise": "data", "prior.scale": "plain", "prior.dof": dof, "recovery_noise": 1.0,
         }  # fmt: skip
-        own = changed(settings, changes)
+        own = with_binning(settings, changes)
         one = out[f"{dof:,}"] = outcome(of, own, VARIANTS[SHIPPED])
         again = [recovered(of, own, kind, (3,))[0] for kind in ("fitted", FITTED_MAP)]
         print(
@@ -358,7 +351,7 @@ def long_ones(of: Takes, settings: Settings) -> dict[str, str]:
     print("|---" * 6 + "|")
     for label, changes in variants.items():
         found = long_series(
-            of.corpus, of.recordings, SeriesSettings.of(changed(settings, changes)), 1
+            of.corpus, of.recordings, SeriesSettings.of(with_binning(settings, changes)), 1
         )
         rows = found.table("wrist_posteriors", of.corpus.unit)
         by_hand = rows.groupby("hand")["boundaries_per_s"].mean()

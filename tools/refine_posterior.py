@@ -14,9 +14,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from signkin import seeds
 from signkin.coarticulation import TagModel, learn_tag_model, refine_each, refine_posterior
-from signkin.corpus import load_corpus
 from signkin.errors import SignkinError
 from signkin.io.bvh import forward_kinematics
 from signkin.joints import HANDS
@@ -28,6 +26,7 @@ from signkin.simulate.body import Body
 from tools.marked import fill
 from tools.numbers import table
 from tools.shipped import shipped
+from tools.simulated import simulate_lsf
 
 ROOT = Path(__file__).resolve().parents[1]
 SETTINGS = shipped()
@@ -46,19 +45,7 @@ class Take:
 
 def simulated(seed: int) -> list[Take]:
     """Simulate lsf-sim once more."""
-    text = {"dtype": str, "keep_default_na": False}
-    printed = ROOT / "papers" / "naert2017"
-    constants = pd.read_csv(printed / "constants.csv", **text).set_index("name")["value"]
-    corpus = load_corpus(ROOT / "corpora" / "lsf-sim")
-    made = lsf.simulate(
-        names=[entry.recording for entry in corpus.entries],
-        lexicon=corpus.lexicon,
-        table2=pd.read_csv(printed / "table2.csv", **text),
-        theta=np.array([float(constants[f"theta_{t}"]) for t in lsf.TERMS]),
-        mean_error_s=float(constants["mean_error"]),
-        euclidean_unit_m=SETTINGS.transitions.euclidean_unit_m,
-        rng=seeds.stream(seed, corpus.name),
-    )
+    made = simulate_lsf(seed)
     joints = list(Body().hierarchy.joints)
     takes = []
     for recording in made.recordings:

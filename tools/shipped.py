@@ -15,9 +15,15 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def shipped(changes: Mapping[str, Any] | None = None) -> Settings:
-    """Return the settings with keys changed, each named by its path (`binning.prior.dof`)."""
-    config: dict[str, Any] = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    for path, value in (changes or {}).items():
+    """Return the shipped settings with keys changed; see `changed`."""
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    return changed(load_settings(config), changes or {})
+
+
+def changed(settings: Settings, changes: Mapping[str, Any]) -> Settings:
+    """Return settings with keys changed, each named by its path (`binning.prior.dof`)."""
+    config = settings.model_dump()
+    for path, value in changes.items():
         *above, last = path.split(".")
         place = config
         for name in above:

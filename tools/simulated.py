@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 SETTINGS = shipped()
 
 
-def simulate_lsf() -> lsf.SimulatedCorpus:
+def simulate_lsf(seed: int = SETTINGS.seed) -> lsf.SimulatedCorpus:
     """Simulate lsf-sim from the printed tables of Naert et al. 2017."""
     text = {"dtype": str, "keep_default_na": False}
     printed = ROOT / "papers" / "naert2017"
@@ -30,7 +30,7 @@ def simulate_lsf() -> lsf.SimulatedCorpus:
         theta=np.array([float(constants[f"theta_{t}"]) for t in lsf.TERMS]),
         mean_error_s=float(constants["mean_error"]),
         euclidean_unit_m=SETTINGS.transitions.euclidean_unit_m,
-        rng=seeds.stream(SETTINGS.seed, corpus.name),
+        rng=seeds.stream(seed, corpus.name),
     )
 
 

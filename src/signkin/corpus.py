@@ -27,6 +27,7 @@ from signkin.errors import SignkinError, listed
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
 from signkin.shared_files import check_shared_tables, check_shared_tags
+from signkin.text_file import text_of
 from signkin.yaml_file import read_yaml
 
 SCHEMAS = files("signkin") / "schemas"
@@ -228,16 +229,6 @@ def _given(content: dict[str, Any]) -> dict[str, Any]:
     return {k: v for k, v in inner.items() if v is not None}
 
 
-def _not_utf8(path: Path, error: UnicodeDecodeError) -> SignkinError:
-    return SignkinError(
-        f"byte 0x{error.object[error.start]:02x} is not UTF-8",
-        file=path,
-        place=f"line {error.object[: error.start].count(10) + 1}",
-        expected="text in UTF-8",
-        todo="Save the file as UTF-8.",
-    )
-
-
 def check_schema(content: object, schema: str, file: Path | str, place: str = "") -> None:
     """Check a value against signkin/schemas/<schema>.schema.yaml; the error names the key."""
     errors = sorted(_validator(schema).iter_errors(content), key=lambda e: list(map(str, e.path)))
@@ -287,11 +278,9 @@ def _check_joints(motion: Mapping[str, Any], file: Path) -> None:
 def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, str]]]:
     """Yield (line, row) of a checked CSV file; a doubled key is an error."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = text_of(path)
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
-    except UnicodeDecodeError as error:
-        raise _not_utf8(path, error) from error
     seen: dict[str, int] = {}
     reader = csv.DictReader(text.splitlines(), strict=True)
     for row in reader:

@@ -16,6 +16,7 @@ import jsonschema
 import yaml
 
 from signkin.errors import SignkinError
+from signkin.text_file import text_of
 
 SCHEMA = files("signkin") / "schemas" / "claims.schema.yaml"
 GUIDE = "See docs/claims.md."
@@ -37,26 +38,9 @@ class ClaimsFile:
     faults: list[SignkinError] = field(default_factory=list)
 
 
-def text_of(path: Path) -> str:
-    """Return a text file; one that is too long or not UTF-8 is an error with its line."""
-    raw = path.read_bytes()
-    if len(raw) > MOST_BYTES:
-        raise SignkinError(
-            f"it has {len(raw):,} bytes", file=path, expected=f"at most {MOST_BYTES:,}"
-        )
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = raw[: error.start].count(b"\n") + 1
-        raise SignkinError(
-            f"byte {raw[error.start]:#04x} is not UTF-8", file=path, place=f"line {line}",
-            expected="text in UTF-8", todo="Save the file as UTF-8.",
-        ) from None  # fmt: skip
-
-
 def read_claims(path: Path) -> ClaimsFile:
     """Read and check claims.yaml; what is wrong with the file as a whole is an error."""
-    text = text_of(path)
+    text = text_of(path, MOST_BYTES)
     try:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
         if node is None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from signkin.audit.verdicts import Verdict
 from signkin.errors import SignkinError
 
-CONSISTENT, INCONSISTENT, UNDECIDABLE = "consistent", "inconsistent", "undecidable"
-HOLDS, FAILS, NOT_TESTABLE = "holds", "fails", "not testable"
-UNDECIDED, DEPENDS = "undecided", "depends"  # the data allow both; on what is not printed
-BY_CONSTRUCTION = "by construction"  # the data were made with the printed number
+CONSISTENT, INCONSISTENT = Verdict.CONSISTENT.value, Verdict.INCONSISTENT.value
+HOLDS, FAILS, NOT_TESTABLE = Verdict.HOLDS.value, Verdict.FAILS.value, Verdict.NOT_TESTABLE.value
+UNDECIDED, DEPENDS = Verdict.UNDECIDED.value, Verdict.DEPENDS.value
+BY_CONSTRUCTION = Verdict.BY_CONSTRUCTION.value
+UNDECIDABLE = "undecidable"  # of a single check: a claim it alone stands on is not testable
 DECISION, DIGITS = "the decision changes", "digits only"
 
 

@@ -16,9 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from signkin.audit.apa import FoundStatistic, NotRead, statistics_in
-from signkin.audit.claims_file import text_of
+from signkin.audit.claims_file import MOST_BYTES
 from signkin.audit.rounding import is_number
 from signkin.errors import SignkinError, listed
+from signkin.text_file import text_of
 
 N_NAMES = ("n", "number", "count", "participants", "subjects", "size")
 MEAN_NAMES = ("mean", "m", "average", "avg")
@@ -50,7 +51,7 @@ def init(arguments: Sequence[str]) -> int:
             "it is a PDF", file=told.file, expected="its text layer as .txt",
             todo="Make one with `pdftotext -layout FILE.pdf`.",
         )  # fmt: skip
-    text = text_of(told.file)
+    text = text_of(told.file, MOST_BYTES)
     draft = from_table(text, told.file) if told.file.suffix.lower() in TABLES else from_text(text)
     to = told.to or Path(re.sub(r"[^A-Za-z0-9._-]+", "-", told.file.stem))
     if (to / "claims.yaml").exists():

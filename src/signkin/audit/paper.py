@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from signkin.audit.claims_file import GUIDE, read_claims, text_of
+from signkin.audit.claims_file import GUIDE, MOST_BYTES, read_claims
 from signkin.errors import SignkinError, listed
+from signkin.text_file import text_of
 
 OWN = (
     "check",
@@ -129,7 +130,7 @@ def _rows(path: Path, folder: Path) -> Iterator[PrintedRow]:
     if not path.is_file():
         there = sorted(p.name for p in folder.glob("*.csv"))
         raise SignkinError(f"there is no table {path.name}", expected=listed(there))
-    reader = csv.DictReader(text_of(path).splitlines(), strict=True)
+    reader = csv.DictReader(text_of(path, MOST_BYTES).splitlines(), strict=True)
     try:
         header = reader.fieldnames or ()
         doubled = sorted({name for name in header if list(header).count(name) > 1})

@@ -12,12 +12,11 @@ from itertools import islice
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
-from signkin.io.markers import MarkerHead, read_markers, unit_of
+from signkin.io.markers import MarkerHead, check_times, read_markers, unit_of
 from signkin.io.points import source_motion
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
 from signkin.io.text import number, quoted, text_lines
-from signkin.io.trc import check_times
 
 # Further down no maker's header goes.
 _LONGEST_HEADER = 60

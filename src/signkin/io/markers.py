@@ -51,6 +51,15 @@ class MarkerHead:
     frames: int | None = None
 
 
+def check_times(times: str) -> bool:
+    """Return whether a reader looks at the column of times."""
+    if times not in ("check", "ignore"):
+        raise SignkinError(
+            f"times is {quoted(times)}", place="options, times", expected="check or ignore"
+        )
+    return times == "check"
+
+
 def unit_of(text: str) -> str | None:
     """Return the unit that a header names, None where it names none that is known."""
     return UNITS.get(text.strip().lower())

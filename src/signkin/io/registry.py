@@ -144,7 +144,7 @@ def read_recording(
     wanted = _find(_MOTION, path, format, "motion")
     try:
         _check_joint_map(joints)
-        _check_options(wanted, options, ("joints", "part"), ("clock",))
+        _check_options(wanted, options)
     except SignkinError as error:
         raise brief(error.at(file=path)) from error
     folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
@@ -204,19 +204,18 @@ def _check_joint_map(joints: object) -> None:
             taken[column] = str(joint)
 
 
-def _check_options(
-    reader: Any, given: Mapping[str, Any], own: tuple[str, ...], common: tuple[str, ...]
-) -> None:
-    """Refuse an option that the reader does not have."""
+def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
+    """Refuse an option that a motion reader does not have."""
+    shared = ("joints", "part")
     parameters = inspect.signature(reader).parameters.values()
-    options = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in own]
+    options = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in shared]
     unknown = [name for name in given if name not in options]
     if unknown:
-        known = {id(reader): key for key, (reader, _) in (*_MOTION.items(), *_ANNOTATION.items())}
+        known = {id(reader): key for key, (reader, _) in _MOTION.items()}
         raise SignkinError(
             f"no option {listed(unknown)} of the format {known.get(id(reader), 'chosen')}",
             place="options",
-            expected=listed([*options, *common], 40),
+            expected=listed([*options, "clock"], 40),
         )
 
 

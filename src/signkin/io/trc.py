@@ -12,7 +12,7 @@ from itertools import dropwhile, islice
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
-from signkin.io.markers import MarkerHead, read_markers, unit_of
+from signkin.io.markers import MarkerHead, check_times, read_markers, unit_of
 from signkin.io.points import source_motion
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
@@ -63,15 +63,6 @@ def read_trc(
         incomplete=incomplete,
     )
     return source_motion(points, resample_hz=resample_hz)
-
-
-def check_times(times: str) -> bool:
-    """Return whether a reader looks at the column of times."""
-    if times not in ("check", "ignore"):
-        raise SignkinError(
-            f"times is {quoted(times)}", place="options, times", expected="check or ignore"
-        )
-    return times == "check"
 
 
 def _head(lines: list[str], separator: str, layout: Layout) -> MarkerHead:
