@@ -19,6 +19,7 @@ KERNELS = (
     "band",
     "best_path",
     "counts",
+    "evidence_layout",
     "exact",
     "hit_rate",
     "jit",

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from signkin.binning.evidence_layout import write_evidence
 from signkin.binning.jit import inlined, kernel
-from signkin.binning.lanes import WIDTH, aligned, load, log, splat, store, transpose
+from signkin.binning.lanes import WIDTH, aligned, load, log, splat, store
 
 F = NDArray[np.float64]
 
@@ -184,15 +185,4 @@ def segment_evidence_exactly(
                     small = load(factor, (1, d, k * (k + 3) // 2, 0)) / pivot
                     value = value + (log(pivot / scale[k]) + small)
                 store(values, (d, 0), constant[n, d] - half[n] * value)
-            here = min(WIDTH, bins - first - n)
-            if out.ndim == 4:
-                for d in range(orders, groups * WIDTH):
-                    store(values, (d, 0), load(values, (orders - 1, 0)))
-                for g in range(groups):
-                    transpose(values, (WIDTH * g, 0), turned, (0, 0))
-                    for b in range(here):
-                        store(out, (g, first + b, n, 0), load(turned, (b, 0)))
-            else:
-                for d in range(orders):
-                    for b in range(here):
-                        out[d, first + b, n] = values[d, b]
+            write_evidence(values, turned, orders, first, n, bins, out)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from signkin.binning.evidence_layout import write_evidence
 from signkin.binning.exact import append_exactly
 from signkin.binning.jit import helper, inlined, kernel
 from signkin.binning.lanes import (
@@ -218,18 +219,7 @@ def segment_evidence(
                 lost = _log_determinants(r, orders, dims, factor, values) or lost
             for d in range(orders):
                 store(values, (d, 0), constant[n, d] - half[n] * load(values, (d, 0)))
-            here = min(WIDTH, bins - first - n)
-            if out.ndim == 4:
-                for d in range(orders, groups * WIDTH):
-                    store(values, (d, 0), load(values, (orders - 1, 0)))
-                for g in range(groups):
-                    transpose(values, (WIDTH * g, 0), turned, (0, 0))
-                    for b in range(here):
-                        store(out, (g, first + b, n, 0), load(turned, (b, 0)))
-            else:
-                for d in range(orders):
-                    for b in range(here):
-                        out[d, first + b, n] = values[d, b]
+            write_evidence(values, turned, orders, first, n, bins, out)
         if lost:
             return True
     return False
