@@ -100,11 +100,17 @@ def what_is_shown(base: Database, settings: SynthesisSettings, printed: Array) -
 
 
 def data(base: Database, shown: Shown) -> pd.DataFrame:
-    """Return postures and speeds as the table `skeletons`."""
-    unit, joints = base.corpus.unit, shown.signs[0].recording.joints
+    """Return postures, the wrists' paths, durations and speeds as the table `skeletons`."""
+    unit, take = base.corpus.unit, shown.signs[0].recording
+    joints, wrists = take.joints, [f"{hand}_wrist" for hand in HANDS]
     rows = []
     for posture, name in zip(shown.ends, shown.names, strict=True):
         rows += joint_rows(joints, posture, "postures", name.replace("\n", " "), 0.0, unit)
+    for method, path in shown.paths.items():
+        for frame, posture in enumerate(path):
+            rows += joint_rows(wrists, posture, "postures", method, frame / take.rate_hz, unit)
+    for model, duration in shown.durations.items():
+        rows.append({"panel": "durations", "motion": model, "kind": "duration", "time_s": duration})
     for method, curves in shown.curves.items():
         for model, curve in curves.items():
             rows += speed_rows(curve, method, model, shown.hand, unit)
