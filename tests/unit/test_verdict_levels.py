@@ -30,7 +30,7 @@ def verdict(tmp_path):
                 "published": {"missing": "nothing is printed"},
                 "corpora": {"checks": [{"reads": "So.", **check}]}, **claim}  # fmt: skip
         content = {"paper": "Me 2026", "study": "mine", "claims": [full]}
-        content |= {"multiverse": [curve]} if curve else {}
+        content |= {"specification_curves": [curve]} if curve else {}
         (paper / "claims.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
         here = tmp_path / "results/mine/here"
         here.mkdir(parents=True, exist_ok=True)

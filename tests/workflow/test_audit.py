@@ -1,4 +1,4 @@
-"""The audit in a whole run: the ledger, the curves and the multiverse beside the pipeline."""
+"""The audit in a whole run: the ledger, the curves and the open choices beside the pipeline."""
 
 import shutil
 
@@ -32,9 +32,9 @@ def test_the_simulation_carries_what_it_was_made_to_carry(simulated_run):
     assert there["N18"] == "fails"  # the outlier of 79 frames is in it
 
 
-def test_the_multiverse_has_the_pipelines_own_numbers(simulated_run):
+def test_the_open_choices_have_the_pipelines_own_numbers(simulated_run):
     base = simulated_run.results / "naert2017/lsf-sim"
-    many = read_table(base / "multiverse.csv", "multiverse")
+    many = read_table(base / "claim_choices.csv", "claim_choices")
     own = many[(many["cutoff_hz"] == 6) & (many["prominence"] == 0.05) & (many["window_s"] == 0.15)]
     quality = read_table(base / "refinement.csv", "refinement").set_index(["hand", "measure"])
     pairs = read_table(base / "fig09.csv", "segmentations")

@@ -120,7 +120,7 @@ def test_every_sign_is_binned_or_listed(signs_run):
     assert sums.sum().to_numpy() == pytest.approx(1)
     truth = table(done, "signs", "ground_truth")
     assert truth.groupby("recording").size().tolist() == [3] * GOOD
-    grid = table(done, "signs", "sensitivity")
+    grid = table(done, "signs", "order_choices")
     assert len(grid) == 1 and grid["recordings"].iloc[0] == 2
 
 

@@ -7,7 +7,7 @@ rule claims:
         rules.naert2017.input,
         rules.naert2017_durations.input,
         rules.endres2013.input,
-        collect(rules.multiverse.output, corpus=PLAN.tagged),
+        collect(rules.claim_choices.output, corpus=PLAN.tagged),
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         papers=PLAN.claim_files(),
     output:
@@ -28,7 +28,7 @@ rule claims:
 rule curves:
     """What the claims rest on: a specification curve for each."""
     input:
-        collect(rules.multiverse.output, corpus=PLAN.tagged),
+        collect(rules.claim_choices.output, corpus=PLAN.tagged),
         rules.endres2013.input,
         papers=PLAN.claim_files(),
     output:

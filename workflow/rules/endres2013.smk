@@ -106,18 +106,18 @@ rule endres_figures:
         "../scripts/endres2013/figures.py"
 
 
-rule sensitivity:
+rule order_choices:
     """What the paper does not print, varied: prior and bins (3.2)."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
     output:
-        sensitivity="<results>/endres2013/{corpus}/sensitivity.csv",
-        svg="<results>/endres2013/{corpus}/fig_sensitivity.svg",
-        pdf="<results>/endres2013/{corpus}/fig_sensitivity.pdf",
-        caption="<results>/endres2013/{corpus}/sensitivity.txt",
+        order_choices="<results>/endres2013/{corpus}/order_choices.csv",
+        svg="<results>/endres2013/{corpus}/fig_order_choices.svg",
+        pdf="<results>/endres2013/{corpus}/fig_order_choices.pdf",
+        caption="<results>/endres2013/{corpus}/order_choices.txt",
     log:
-        "<logs>/endres2013/{corpus}/sensitivity.log",
+        "<logs>/endres2013/{corpus}/order_choices.log",
     threads: 2
     params:
         code=PLAN.digest("endres2013/open_choices.py"),
@@ -148,7 +148,7 @@ rule endres2013:
     input:
         collect(rules.endres_tables.output, corpus=PLAN.single_signs),
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
-        collect(rules.sensitivity.output, corpus=PLAN.single_signs),
+        collect(rules.order_choices.output, corpus=PLAN.single_signs),
         collect(rules.one_wrist.output, corpus=PLAN.continuous),
         collect(
             rules.binning_elan.output,

@@ -349,7 +349,7 @@ rule naert2017_durations:
         collect(rules.duration_surface.output, corpus=PLAN.oriented),
 
 
-rule multiverse:
+rule claim_choices:
     """Claims of Naert et al. under every combination of open choices."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
@@ -357,9 +357,9 @@ rule multiverse:
         excluded=rules.gather.output.excluded,
         transitions=rules.naert_tables.output.transitions,
     output:
-        multiverse="<results>/naert2017/{corpus}/multiverse.csv",
+        claim_choices="<results>/naert2017/{corpus}/claim_choices.csv",
     log:
-        "<logs>/naert2017/{corpus}/multiverse.log",
+        "<logs>/naert2017/{corpus}/claim_choices.log",
     params:
         code=PLAN.digest("naert2017/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),

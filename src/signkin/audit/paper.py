@@ -177,10 +177,10 @@ def read_paper(folder: str | Path) -> Paper:
             claim=c["claim"], table=c["table"], choices=c["choices"], estimate=c["estimate"],
             label=c["label"], reads=c["reads"], where=c.get("where", ""),
             reference=c.get("reference", ""), holds=c.get("holds", ""),
-            line=lines[("multiverse", i)], keeps=c.get("keeps", ""),
+            line=lines[("specification_curves", i)], keeps=c.get("keeps", ""),
             checks=tuple(c["checks"]) if "checks" in c else None, each=c.get("each", ""),
         )
-        for i, c in enumerate(content.get("multiverse", []))
+        for i, c in enumerate(content.get("specification_curves", []))
     )  # fmt: skip
     for curve in curves:
         if curve.claim not in seen and not file.faults:

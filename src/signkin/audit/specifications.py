@@ -30,7 +30,9 @@ def specifications(
     lacking = [column for column in wanted if column not in table.columns]
     if lacking:
         raise SignkinError(
-            f"the table lacks {listed(lacking)}", place="multiverse", expected=listed(table.columns)
+            f"the table lacks {listed(lacking)}",
+            place="specification_curves",
+            expected=listed(table.columns),
         )
     out = pd.DataFrame({name: _levels(table[column]) for column, name in choices.items()})
     out["estimate"] = table[estimate].astype(float)

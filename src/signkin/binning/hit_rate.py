@@ -134,10 +134,10 @@ class HitRate:
 
         Infinite with hits and no false positive; NaN without both, or without truth.
         """
-        rate, false = self.hit_rate, self.false_positives_per_s
+        hit_share, false = self.hit_rate, self.false_positives_per_s
         if false > 0:
-            return rate / false
-        return float("inf") if rate > 0 else float("nan")
+            return hit_share / false
+        return float("inf") if hit_share > 0 else float("nan")
 
 
 def hit_rate(
@@ -426,8 +426,8 @@ def chance_line(
     false = np.empty((len(rates), draws))
     there = true > 0
     repeated = np.tile(flat, draws), np.tile(true, draws)
-    for r, rate in enumerate(rates):
-        events = generator.poisson(rate * durations, size=(draws, len(durations))).ravel()
+    for r, events_per_s in enumerate(rates):
+        events = generator.poisson(events_per_s * durations, size=(draws, len(durations))).ravel()
         times = generator.uniform(size=events.sum()) * np.repeat(np.tile(durations, draws), events)
         hits = _hits(times, events, *repeated, window_s + TOLERANCE_S).reshape(draws, -1)
         hit[r] = np.mean(hits[:, there] / true[there], axis=1)

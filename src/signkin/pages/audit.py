@@ -359,7 +359,7 @@ def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]]) -> Section:
         "What the claims rest on",
         text=(
             "Some claims hang on choices that the paper leaves open. Here every combination of the "
-            "choices in config.yaml (multiverse) is run: in which share of them does the claim "
+            "choices in config.yaml (open_choices) is run: in which share of them does the claim "
             "hold, and which choice decides?",
         ),
         exhibits=views,

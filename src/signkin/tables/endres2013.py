@@ -201,8 +201,8 @@ TABLES = (
         ),
     ),
     Table(
-        "sensitivity",
-        "results/endres2013/<corpus>/sensitivity.csv",
+        "order_choices",
+        "results/endres2013/<corpus>/order_choices.csv",
         "a setting of what the paper does not print, and its results on some recordings",
         (
             text("corpus", "corpus, as its folder is called"),

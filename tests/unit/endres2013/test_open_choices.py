@@ -10,7 +10,7 @@ from signkin.errors import SignkinError
 from signkin.figures.style import paper_style
 from signkin.studies.endres2013.figures.open_choices import OUTCOMES
 from signkin.studies.endres2013.figures.open_choices import drawn as figure_of
-from signkin.studies.endres2013.open_choices import sensitivity
+from signkin.studies.endres2013.open_choices import order_choices
 from signkin.studies.endres2013.posteriors import study
 from signkin.studies.endres2013.settings import ChoiceSettings, CutSettings, FitSettings
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, single_signs
@@ -29,7 +29,7 @@ def recordings(seconds=1.6):
 
 def table_of(seconds=1.6, **grid):
     own = settings({**GRID, **grid}, bins=30)
-    return own, sensitivity(corpus_of(NAMES), recordings(seconds), ChoiceSettings.of(own), 3, 1)
+    return own, order_choices(corpus_of(NAMES), recordings(seconds), ChoiceSettings.of(own), 3, 1)
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def found():
 
 def test_each_combination_is_a_row(found):
     _, table = found
-    assert list(table.columns) == tables.TABLES["sensitivity"].names("m")
+    assert list(table.columns) == tables.TABLES["order_choices"].names("m")
     assert table["dof"].tolist() == ["L", "5"]
     assert table["default"].tolist() == ["yes", "no"]
     assert table["printed"].tolist() == ["no", "no"]
@@ -103,12 +103,12 @@ def test_recordings_without_ground_truth_are_said():
 
 def test_without_a_recording_there_is_a_sentence():
     with pytest.raises(SignkinError, match=r"tiny: no recording has a power-law ground truth"):
-        sensitivity(corpus_of(NAMES), [], ChoiceSettings.of(settings(GRID)), 3, 1)
+        order_choices(corpus_of(NAMES), [], ChoiceSettings.of(settings(GRID)), 3, 1)
 
 
 def test_the_number_of_workers_changes_nothing(found):
     own, table = found
-    again = sensitivity(corpus_of(NAMES), recordings(), ChoiceSettings.of(own), 3, 2)
+    again = order_choices(corpus_of(NAMES), recordings(), ChoiceSettings.of(own), 3, 2)
     pd.testing.assert_frame_equal(table, again, check_exact=True)
 
 

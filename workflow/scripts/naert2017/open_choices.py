@@ -7,11 +7,11 @@ with job(snakemake):
     from signkin import tables
     from signkin.corpus import load_corpus
     from signkin.io.store import read_recordings
-    from signkin.studies.naert2017.open_choices import multiverse
+    from signkin.studies.naert2017.open_choices import claim_choices
 
     source = snakemake.input
     corpus = load_corpus(Path(snakemake.params.corpus))
-    table = multiverse(
+    table = claim_choices(
         corpus,
         chain.from_iterable(read_recordings(path) for path in source.recordings),
         tables.read_table(source.intervals, "intervals"),
@@ -20,4 +20,4 @@ with job(snakemake):
         snakemake.params.settings,
         snakemake.params.seed,
     )
-    tables.write_table(table, snakemake.output.multiverse, "multiverse", corpus.unit)
+    tables.write_table(table, snakemake.output.claim_choices, "claim_choices", corpus.unit)

@@ -58,11 +58,11 @@ def chosen_recordings(
     return [one for path in paths for one in read_recordings(Path(path), names)]
 
 
-def sensitivity(
+def order_choices(
     corpus: Corpus, recordings: Sequence[Recording], settings: ChoiceSettings, seed: int,
     workers: int,
 ) -> pd.DataFrame:  # fmt: skip
-    """Return the table `sensitivity` of the recordings."""
+    """Return the table `order_choices` of the recordings."""
     if not recordings:
         raise SignkinError(
             "no recording has a power-law ground truth",
@@ -99,7 +99,7 @@ def sensitivity(
             }
             fit = replace(settings.fit, prior=prior, orders=grid.orders)
             rows.append({**told, **_outcomes(corpus, cut, line, fit, workers)})
-    return pd.DataFrame(rows, columns=tables.TABLES["sensitivity"].names(corpus.unit))
+    return pd.DataFrame(rows, columns=tables.TABLES["order_choices"].names(corpus.unit))
 
 
 def _yes(value: bool) -> str:

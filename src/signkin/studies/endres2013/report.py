@@ -82,11 +82,11 @@ def _single_signs(
         FigureView(
             label="",
             title="What the paper does not print decides its results",
-            caption=(folder / "sensitivity.txt").read_text(encoding="utf-8").strip(),
-            svg=folder / "fig_sensitivity.svg",
+            caption=(folder / "order_choices.txt").read_text(encoding="utf-8").strip(),
+            svg=folder / "fig_order_choices.svg",
             files=[
-                *figure_files(folder / "fig_sensitivity", ".svg", ".pdf"),
-                folder / "sensitivity.csv",
+                *figure_files(folder / "fig_order_choices", ".svg", ".pdf"),
+                folder / "order_choices.csv",
             ],
         )
     )

@@ -128,7 +128,7 @@ class _Take:
         )
 
 
-def multiverse(
+def claim_choices(
     corpus: Corpus,
     recordings: Iterable[Recording],
     intervals: pd.DataFrame,
@@ -137,7 +137,7 @@ def multiverse(
     settings: GridSettings,
     seed: int,
 ) -> pd.DataFrame:
-    """Return the table `multiverse` of a corpus.
+    """Return the table `claim_choices` of a corpus.
 
     transitions: the pipeline's table, which has the types and the manual transitions.
     excluded: the table of recordings that are left out.
@@ -160,7 +160,7 @@ def multiverse(
             rows += _refined_rows(setting, gathered[setting], settings)
     for row in rows:
         row["corpus"] = corpus.name
-    frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["multiverse"].names())
+    frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["claim_choices"].names())
     for column in ("segmentation", "hand", "outliers", "note"):
         frame[column] = frame[column].fillna("")
     return frame.sort_values("claim", kind="stable", ignore_index=True)

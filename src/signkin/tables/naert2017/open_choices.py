@@ -6,8 +6,8 @@ from signkin.tables.schema import NOTE, Column, Table, text
 
 TABLES = (
     Table(
-        "multiverse",
-        "results/naert2017/<corpus>/multiverse.csv",
+        "claim_choices",
+        "results/naert2017/<corpus>/claim_choices.csv",
         "a claim under one specification: a combination of choices that the paper leaves open",
         (
             text("corpus", "corpus"),

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.figure import Figure
 
-from signkin.figures import sensitivity as drawing
+from signkin.figures import order_choices as drawing
 from signkin.figures.style import WIDTH_IN
 from signkin.report.drawn import Drawn
 
@@ -24,12 +24,12 @@ OUTCOMES: dict[str, tuple[str, float | None]] = {
 
 
 def drawn(frame: pd.DataFrame) -> Drawn:
-    """Draw the table `sensitivity` of one corpus."""
+    """Draw the table `order_choices` of one corpus."""
     return Drawn(draw(frame), frame, caption(frame))
 
 
 def draw(frame: pd.DataFrame) -> Figure:
-    """Draw the table `sensitivity` of one corpus; points on one another differ in bins alone."""
+    """Draw the table `order_choices` of one corpus; points on one another differ in bins alone."""
     points = frame.copy()
     points["group"] = points["noise"].str.replace(" ", "\n") + "\n" + points["time_unit"]
     groups = list(dict.fromkeys(points["group"]))

@@ -28,7 +28,7 @@ def plot_settings(
 ) -> Axes:  # fmt: skip
     """Draw one outcome of all settings in columns, one a group; grey bars between them.
 
-    points: rows of the table `sensitivity`, with a column `group`. colour, marker: columns
+    points: rows of the table `order_choices`, with a column `group`. colour, marker: columns
     whose values are told by colour and by shape. paper: the printed value, a dashed line.
     """
     colours = _kinds(points[colour], SETTING_COLOURS)
