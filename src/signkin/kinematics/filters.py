@@ -14,7 +14,6 @@ from functools import lru_cache
 import numpy as np
 import scipy  # loads scipy.signal when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from signkin.errors import SignkinError, listed
 from signkin.kinematics.gaps import stretches
@@ -120,7 +119,9 @@ def fir_taps(
             place="lowpass.cutoff_hz",
             expected="a higher cut-off, or the Butterworth filter",
         )
-    return np.asarray(scipy.signal.firwin(n_taps, brentq(gain_error, low, high), fs=rate_hz))
+    return np.asarray(
+        scipy.signal.firwin(n_taps, scipy.optimize.brentq(gain_error, low, high), fs=rate_hz)
+    )
 
 
 def _gain(taps: NDArray[np.float64], frequency_hz: float, rate_hz: float) -> float:
