@@ -14,6 +14,7 @@ from signkin.resampling import difference
 from signkin.seeds import stream
 
 ENOUGH_RECORDINGS = 5  # fewer tell little of how recordings differ
+LEAST = 5  # transitions; fewer have no interval to speak of
 DRAWS = 1000
 SOURCES = {"lexicon": "lexicon", "kinematic": "motion", "": "none"}
 
@@ -71,13 +72,13 @@ def _numbers(part: pd.DataFrame, rng: np.random.Generator) -> dict[str, Any]:
     values = part["duration_s"].to_numpy(dtype=float)
     n, recordings = len(values), part["recording"].nunique()
     sd = float(values.std(ddof=1)) if n > 1 else float("nan")
-    low, high, note = float("nan"), float("nan"), "one value"
+    low, high, note = float("nan"), float("nan"), f"fewer than {LEAST} transitions: no interval"
     if recordings >= ENOUGH_RECORDINGS:
         found = difference(
             values, np.zeros(n), {"recording": part["recording"].tolist()}, DRAWS, rng
         )
         low, high, note = found.low, found.high, ""
-    elif n > 1:
+    elif n >= LEAST:
         half = float(stats.t.ppf(0.975, n - 1)) * sd / n**0.5
         low, high = float(values.mean()) - half, float(values.mean()) + half
         note = (

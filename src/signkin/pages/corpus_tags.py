@@ -26,9 +26,7 @@ def tags_of(corpus: str, boundaries: pd.DataFrame, window_s: float) -> pd.DataFr
         ).reset_index(names=["name", "hand"])  # fmt: skip
         parts.append(own.assign(group=group))
     frame = pd.concat(parts, ignore_index=True)
-    low, high = proportion_confint(
-        frame["k"].to_numpy(), frame["n"].to_numpy(), method="wilson"
-    )
+    low, high = proportion_confint(frame["k"].to_numpy(), frame["n"].to_numpy(), method="wilson")
     frame = frame.assign(corpus=corpus, near=frame["k"] / frame["n"], low=low, high=high)
     return frame[tables.TABLES["corpus_tags"].names()]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -64,9 +65,9 @@ def _first(sources: Sources) -> Section:
 
 def _summary(sources: Sources) -> Section:
     rows = [_row(sources, name, corpus) for name, corpus in sources.corpora.items()]
+    rows.sort(key=lambda row: str(row["evidence"]))
     columns = {
-        "corpus": ("corpus", ""),
-        "page": ("its page", "open"),
+        "page": ("corpus", "link"),
         "evidence": ("evidence", ""),
         "language": ("language", ""),
         "recordings": ("recordings", "d"),
@@ -105,7 +106,6 @@ def _row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:
         if yes
     ]
     row: dict[str, object] = {
-        "corpus": name,
         "page": f"corpora/{name}.html",
         "evidence": "simulated" if corpus.simulator else "real",
         "language": corpus.settings["language"],
@@ -131,20 +131,30 @@ def _row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:
 # --- what holds, what is open ----------------------------------------------------------------
 
 
+QUESTIONS = {
+    "type": "Do durations differ by the types of the two signs?",
+    "change of hands": "Do durations differ by how many hands the signs have?",
+    "hands before x hands after": "Does the number of hands matter, before and after?",
+    "symmetry before x symmetry after": "Does symmetry of two-handed signs matter?",
+    "isochrony": "Do longer ways take longer?",
+}
+
+
 def _owner_findings(sources: Sources) -> Section:
-    rows = [row for name in sources.corpora for row in _tag_findings(sources, name)]
-    rows += [row for name in sources.corpora for row in _duration_findings(sources, name)]
+    order = sorted(sources.corpora, key=lambda name: sources.corpora[name].simulator is not None)
+    rows = [row for name in order for row in _tag_findings(sources, name)]
+    rows += [row for name in order for row in _duration_findings(sources, name)]
     view = TableView(
         label="",
         title="Findings by corpus",
-        caption="In words of one line; the page of the corpus tells numbers and intervals.",
-        frame=pd.DataFrame(rows, columns=["corpus", "evidence", "question", "found", "page"]),
+        caption="A sentence each; numbers, intervals and tests stand where the link leads.",
+        frame=pd.DataFrame(rows, columns=["page", "evidence", "question", "found", "more"]),
         columns={
-            "corpus": ("corpus", ""),
+            "page": ("corpus", "link"),
             "evidence": ("evidence", ""),
             "question": ("question", ""),
             "found": ("found", ""),
-            "page": ("its page", "open"),
+            "more": ("numbers", "open"),
         },
         most=60,
     )
@@ -170,7 +180,13 @@ def _tag_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
             f"{row.hand} hand; by chance {row.chance_low:.0%} to {row.chance_high:.0%}: "
             + ("nearer than chance." if better else "no nearer than chance.")
         )
-        yield _finding(sources, name, "Do tags lie where the hand slows down?", told)
+        yield _finding(
+            sources,
+            name,
+            "Do tags lie where the hand slows down?",
+            told,
+            f"corpora/{name}.html#tags",
+        )
 
 
 def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
@@ -179,16 +195,18 @@ def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
     frame = sources.tagged_table(name, "statistics")
     words = frame[frame["kind"] == "words"].drop_duplicates("comparison")
     for row in words.itertuples():
-        yield _finding(sources, name, str(row.comparison), str(row.note))
+        question = QUESTIONS.get(str(row.comparison), str(row.comparison))
+        first = re.split(r"(?<=[a-z)])[.;:] ", str(row.note), maxsplit=1)[0].rstrip(".") + "."
+        yield _finding(sources, name, question, first, "papers/naert2017.html#durations")
 
 
-def _finding(sources: Sources, name: str, question: str, found: str) -> dict[str, str]:
+def _finding(sources: Sources, name: str, question: str, found: str, more: str) -> dict[str, str]:
     return {
-        "corpus": name,
+        "page": f"corpora/{name}.html",
         "evidence": "simulated" if sources.corpora[name].simulator else "real",
         "question": question,
         "found": found,
-        "page": f"corpora/{name}.html",
+        "more": more,
     }
 
 

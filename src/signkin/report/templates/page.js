@@ -28,7 +28,7 @@ const fill = (td, text, form, heading) => {
   } else if (form === "link") {
     td.textContent = text ? "" : "–";
     for (const file of text.split(" ").filter(Boolean)) {
-      link(td, file, file.split("/").pop());
+      link(td, file, file.split("/").pop().replace(/\.html$/, ""));
       td.append(" ");
     }
   } else if (form === "open") {
@@ -138,8 +138,8 @@ class Table {
     const at = this.forms.indexOf("rating");
     if (at >= 0 && window.rate && row.keys.what !== "transition") window.rate(row.tr.cells[at], row.keys);
     if (!row.keys.recording || !document.querySelector("svg.plot")) return;
-    const first = row.tr.cells[0];
-    if (!first.querySelector("a, button")) {
+    const first = [...row.tr.cells].find(td => td.textContent.trim() === row.keys.recording);
+    if (first && !first.querySelector("a, button")) {
       const text = first.textContent;
       first.textContent = "";
       const button = place("button", text, first, { type: "button", class: "choose", title: "Mark in the plots" });
