@@ -117,7 +117,8 @@ def test_what_is_missing_is_said(simulated_run):
     page = (simulated_run.results / "report/index.html").read_text(encoding="utf-8")
     for corpus in ("dgs-1984189", "boston104", "libras"):
         assert f"{corpus} is not in this run: no folder of real recordings is set" in page
-    assert "SIMULATED" in page
+    own = (simulated_run.results / "report/corpora/lsf-sim.html").read_text(encoding="utf-8")
+    assert "SIMULATED" in own
     assert not re.search(r">\s*nan\s*<", page, flags=re.IGNORECASE)
 
 
