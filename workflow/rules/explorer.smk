@@ -29,12 +29,8 @@ rule explorer:
         boundary_posteriors=where(PLAN.tagged, rules.naert_tables.output.posteriors),
         transitions=where(PLAN.tagged, rules.naert_tables.output.transitions),
         synthesis=where(PLAN.tagged, rules.synthesis.output.synthesis),
-        wrist_boundaries=where(
-            PLAN.continuous, rules.one_wrist.output.wrist_boundaries
-        ),
-        wrist_posteriors=where(
-            PLAN.continuous, rules.one_wrist.output.wrist_posteriors
-        ),
+        wrist_boundaries=where(PLAN.continuous, rules.one_wrist.output.wrist_boundaries),
+        wrist_posteriors=where(PLAN.continuous, rules.one_wrist.output.wrist_posteriors),
         description=lambda w: PLAN.description(w.corpus),
     output:
         pages=directory("<results>/report/recordings/{corpus}"),

@@ -16,7 +16,6 @@ from signkin.explorer.sources import Sources
 from signkin.explorer.syntheses import syntheses
 from signkin.joints import HANDS
 from signkin.recording import Recording
-from signkin.studies.endres2013.posteriors import read_posteriors
 from signkin.studies.endres2013.single_signs import movement_of
 
 MOST_BYTES = 4_900_000  # of a page
@@ -27,11 +26,12 @@ LEAST_SKELETON_BYTES = 200_000
 
 
 def content(
-    sources: Sources, recording: Recording, kinematics: pd.DataFrame
+    sources: Sources, recording: Recording, kinematics: pd.DataFrame, posteriors: pd.DataFrame
 ) -> dict[str, Any]:
     """Return what the page of a recording holds, ready for JSON.
 
-    kinematics: the recording's frames, none for one whose wrists cannot be used.
+    kinematics: the recording's frames, none for one whose wrists cannot be used. posteriors: its
+    rows of posteriors.parquet (recorded trajectory), none for one that is not of one sign.
     """
     corpus, name, unit = sources.corpus, recording.name, recording.unit
     labels = events.Labels()
@@ -60,7 +60,7 @@ def content(
         "boundaries": curves.series_boundaries(
             sources.of("wrist_boundaries", name), sources.of("wrist_posteriors", name)
         ),
-        **_densities(sources, recording),
+        "densities": _densities(sources, recording, posteriors),
     }
     data["flags"] = events.flags(data)
     data["labels"] = list(labels.texts)
@@ -79,20 +79,17 @@ def as_json(data: Mapping[str, Any]) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _densities(sources: Sources, recording: Recording) -> dict[str, Any]:
+def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> list[dict[str, Any]]:
     """Return the boundary densities of a recording of one sign, in the recording's time."""
-    if not sources.posteriors:
-        return {"densities": []}
-    rows = read_posteriors(sources.posteriors, recording.name)
     if not len(rows):
-        return {"densities": []}
+        return []
     movement = movement_of(recording, sources.settings.cut)
     start = movement.active.start / recording.rate_hz
     found = curves.single_sign_densities(rows)
     for one in found:
         one["first"] = float(f"{one['first'] + start:.9g}")
         one["boundaries"] = [round(time + start, 4) for time in one["boundaries"]]
-    return {"densities": found}
+    return found
 
 
 def _syntheses(
@@ -135,7 +132,7 @@ def _troubles(sources: Sources, name: str) -> list[str]:
 
 def _missing(sources: Sources, recording: Recording, data: Mapping[str, Any]) -> list[str]:
     """Return what the page does not show, and why."""
-    out = []
+    out: list[str] = []
     if data["speeds"] is None:
         out.append("No speed: the wrists of this recording cannot be used.")
     else:

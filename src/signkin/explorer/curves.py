@@ -38,45 +38,43 @@ def speeds(kinematics: pd.DataFrame, rate_hz: float, unit: str) -> Mapping[str, 
     }
 
 
-def single_sign_densities(posteriors: pd.DataFrame) -> list[Mapping[str, Any]]:
+def single_sign_densities(posteriors: pd.DataFrame) -> list[dict[str, Any]]:
     """Return the posterior of boundaries of a recording of one sign, by order.
 
-    posteriors: its rows of posteriors.parquet; those of the recorded trajectory are shown. Values
-    stand between two bins, where a segment may end.
+    posteriors: its rows of posteriors.parquet, of the recorded trajectory. Values stand between
+    two bins, where a segment may end; times run from the start of the movement.
     """
-    recorded = posteriors[posteriors["dataset"] == "recorded"].sort_values("order")
-    out = []
+    recorded = posteriors.sort_values("order")
+    out: list[dict[str, Any]] = []
     for row in recorded.itertuples():
         values = np.asarray(row.boundary_probability, dtype=float)
-        bin_s = float(row.bin_s)  # type: ignore[arg-type]
+        bin_s = float(row.bin_s)
         out.append(
             {
                 "hand": str(row.hand),
-                "order": int(row.order),  # type: ignore[arg-type]
+                "order": int(row.order),
                 "probability": float(f"{row.order_probability:.4g}"),
-                "first": (0.5 + float(row.sample_at)) * bin_s,  # type: ignore[arg-type]
+                "first": (0.5 + float(row.sample_at)) * bin_s,
                 "bin": bin_s,
-                "boundaries": [round(float(time), 4) for time in row.boundaries_s],  # type: ignore[attr-defined]
+                "boundaries": [round(float(time), 4) for time in row.boundaries_s],
                 "values": packed(values.reshape(-1, 1), DENSITY_STEP),
             }
         )
     return out
 
 
-def series_boundaries(
-    boundaries: pd.DataFrame, posteriors: pd.DataFrame
-) -> list[Mapping[str, Any]]:
+def series_boundaries(boundaries: pd.DataFrame, posteriors: pd.DataFrame) -> list[dict[str, Any]]:
     """Return the boundaries that binning finds in both wrists of a continuous recording.
 
     boundaries, posteriors: its rows of the tables `wrist_boundaries` and `wrist_posteriors`.
     """
-    out = []
+    out: list[dict[str, Any]] = []
     for row in posteriors.itertuples():
         mine = boundaries[boundaries["hand"] == row.hand].sort_values("boundary_s")
         out.append(
             {
                 "hand": str(row.hand),
-                "order": int(row.order),  # type: ignore[arg-type]
+                "order": int(row.order),
                 "times": [round(float(t), 4) for t in mine["boundary_s"]],
                 "values": [round(float(p), 3) for p in mine["probability"]],
             }

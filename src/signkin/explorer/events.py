@@ -24,7 +24,7 @@ class Labels:
 
     def place(self, text: object) -> int:
         """Return the number of a text; what a table has as missing is the empty text."""
-        known = "" if pd.isna(text) else str(text)  # type: ignore[call-overload]
+        known = "" if pd.isna(text) else str(text)
         return self.texts.setdefault(known, len(self.texts))
 
 
@@ -33,16 +33,18 @@ def ms(time_s: float) -> int | None:
     return None if not np.isfinite(time_s) else round(float(time_s) * MS)
 
 
-def lanes(intervals: pd.DataFrame, labels: Labels) -> list[Mapping[str, Any]]:
+def lanes(intervals: pd.DataFrame, labels: Labels) -> list[dict[str, Any]]:
     """Return the tags of a recording, a lane a role: sign, utterance, translation.
 
     intervals: its rows of the table `intervals`. Each tag is [start ms, end ms, label].
     """
-    out = []
+    out: list[dict[str, Any]] = []
     for role in dict.fromkeys(intervals["role"]):
         rows = intervals[intervals["role"] == role].sort_values(["start_s", "end_s"], kind="stable")
         columns = zip(rows["start_s"], rows["end_s"], rows["label"], strict=True)
-        out.append({"role": str(role), "tags": [[ms(a), ms(b), labels.place(c)] for a, b, c in columns]})
+        out.append(
+            {"role": str(role), "tags": [[ms(a), ms(b), labels.place(c)] for a, b, c in columns]}
+        )
     return out
 
 
@@ -84,7 +86,7 @@ def minima(rows: pd.DataFrame) -> Mapping[str, list[int]]:
 
 def transitions(
     rows: pd.DataFrame, outliers: Sequence[int], unit: str, labels: Labels
-) -> list[Mapping[str, Any]]:
+) -> list[dict[str, Any]]:
     """Return the transitions of a recording, with their durations by each segmentation and hand.
 
     rows: its part of the table `transitions`. outliers: numbers of those that the outlier rule
@@ -98,7 +100,7 @@ def transitions(
         ].itertuples(index=False)
     }
     whole = rows[(rows["segmentation"] == "manual") & (rows["hand"] == "both")]
-    out = []
+    out: list[dict[str, Any]] = []
     for row in whole.sort_values("start_s").to_dict("records"):
         number = int(row["transition"])
         out.append(
@@ -144,7 +146,7 @@ def gaps(kinematics: pd.DataFrame, unit: str) -> Mapping[str, list[Any]]:
 OFF_SHARE = 50  # %
 
 
-def flags(data: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+def flags(data: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return what should be looked at, in order of time: when, and why.
 
     data: what the page holds of a recording: `lanes`, `refined`, `transitions`, `gaps`. A flag
@@ -170,7 +172,7 @@ def _tag_flags(by_hand: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
             states.setdefault((sign, edge), []).append((status, off))
             if status != "moved" or (sign, edge) not in times:
                 times[sign, edge] = at
-    out = []
+    out: list[dict[str, Any]] = []
     for (sign, edge), found in states.items():
         which = f"{'end' if edge else 'start'} of sign {sign + 1}"
         offs = [off for _, off in found if off is not None]
@@ -186,7 +188,7 @@ def _tag_flags(by_hand: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 def _transition_flags(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     told = {"overlap": "the signs overlap", "zero_length": "no time between the tags"}
-    out = []
+    out: list[dict[str, Any]] = []
     for row in rows:
         number, at = row["number"], row["manual"][0]
         if row["status"] in told:

@@ -17,11 +17,15 @@ from signkin.explorer.choice import chosen
 from signkin.explorer.content import as_json, content
 from signkin.explorer.sources import Sources
 from signkin.io.store import read_recordings
+from signkin.studies.endres2013.single_signs import RECORDED
 
 VENDOR = ("uPlot.min.css", "uPlot.iife.min.js", "uPlot.LICENSE")
 # In this order: each uses what stands before it.
 SCRIPTS = ("data.js", "time.js", "tracks.js", "pointer.js", "plots.js", "lanes.js", "density.js",
            "overview.js", "body.js", "compare.js", "lists.js", "main.js")  # fmt: skip
+# What is taken of posteriors.parquet.
+DENSITY = ["recording", "hand", "order", "bin_s", "sample_at", "order_probability",
+           "boundaries_s", "boundary_probability"]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -78,12 +82,24 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
 
 def _contents(sources: Sources, names: Sequence[str]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the content of each page, one shard after the other."""
-    for recordings, frames in zip(sources.recordings, sources.frames, strict=True):
-        known = pd.read_parquet(frames, filters=[("recording", "in", list(names))])
-        by_name = dict(iter(known.groupby("recording", sort=False)))
+    wanted = [("recording", "in", list(names))]
+    binned: Sequence[Path | None] = sources.posteriors or [None] * len(sources.recordings)
+    for recordings, frames, posteriors in zip(
+        sources.recordings, sources.frames, binned, strict=True
+    ):
+        kinematics = _by_recording(pd.read_parquet(frames, filters=wanted))
+        densities = {}
+        if posteriors is not None:
+            own = [*wanted, ("dataset", "==", RECORDED)]
+            densities = _by_recording(pd.read_parquet(posteriors, filters=own, columns=DENSITY))
         for recording in read_recordings(recordings, names):
-            mine = by_name.get(recording.name, known.iloc[:0])
-            yield recording.name, content(sources, recording, mine)
+            name, none = recording.name, pd.DataFrame()
+            mine = kinematics.get(name, none), densities.get(name, none)
+            yield name, content(sources, recording, *mine)
+
+
+def _by_recording(frame: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    return {str(name): rows for name, rows in frame.groupby("recording", sort=False)}
 
 
 def _environment() -> Environment:

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.explorer.packing import packed, weight
-from signkin.figures.skeletons import bones
-from signkin.joints import FINGERS, split
+from signkin.joints import FINGERS, bones, split
 from signkin.recording import Recording
 
 Floats = NDArray[np.float64]
@@ -28,9 +27,7 @@ def skeleton(recording: Recording, most_bytes: int) -> Mapping[str, Any]:
     loses its inner finger joints first, then all but arms and head, then frames; `told` says so.
     """
     step = _step(recording.positions)
-    kept = list(range(len(recording.joints)))
-    told = ""
-    for kept, told in _thinner(recording.joints):
+    for kept, told in _thinner(recording.joints):  # noqa: B007 - the last one tried is taken
         every = _every(recording, kept, step, most_bytes)
         if recording.rate_hz / every >= min(LEAST_HZ, recording.rate_hz):
             break

@@ -14,8 +14,8 @@ from signkin.corpus import Corpus
 from signkin.io.store import recording_names
 from signkin.settings import Settings
 from signkin.studies.endres2013.settings import CutSettings
-from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.distances import with_flags
+from signkin.studies.naert2017.settings import SynthesisSettings
 
 # The tables that a corpus has whatever is in it, and those of corpora with tags or long series.
 SHARED = ("recordings", "intervals", "minima", "plausibility", "excluded")
@@ -25,7 +25,7 @@ OTHERS = ("boundaries", "boundary_posteriors", "transitions", "synthesis",
 
 @dataclass(frozen=True)
 class ExplorerSettings:
-    """The settings that pages depend on, and no others: report.explorer_recordings, and studies'."""
+    """The settings that pages depend on; most_recordings is report.explorer_recordings."""
 
     most_recordings: int | None
     synthesis: SynthesisSettings
@@ -56,13 +56,16 @@ class Sources:
     posteriors: Sequence[Path]
     tables: Mapping[str, pd.DataFrame]
     outliers: Mapping[str, list[int]] = field(default_factory=dict)
+    _rows: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def of(self, table: str, recording: str) -> pd.DataFrame:
         """Return the rows of a recording; no rows of a table that the corpus does not have."""
         frame = self.tables.get(table)
         if frame is None:
             return tables.empty(table, self.corpus.unit)
-        return frame[frame["recording"] == recording]
+        if table not in self._rows:  # found once: a corpus may have thousands of recordings
+            self._rows[table] = dict(frame.groupby("recording", sort=False).indices)
+        return frame.iloc[self._rows[table].get(recording, [])]
 
     def names(self) -> list[str]:
         """Return the recordings with motion, in the order of the corpus."""
@@ -91,9 +94,7 @@ class Sources:
             yield nearest[nearest["status"].map(lambda found: found == {"far"})]
 
 
-def read_sources(
-    corpus: Corpus, settings: ExplorerSettings, files: Mapping[str, Any]
-) -> Sources:
+def read_sources(corpus: Corpus, settings: ExplorerSettings, files: Mapping[str, Any]) -> Sources:
     """Read what the pages of a corpus are made from.
 
     files: recordings, frames, posteriors: a file a shard; the tables: a file each, or none for

@@ -69,7 +69,9 @@ def _durations(table: pd.DataFrame, settings: SynthesisSettings) -> tuple[str, d
     out: dict[int, float] = {}
     for name in (TRUE, model):  # the second one's, where it has any
         rows = own[(own["duration_model"] == name) & own["duration_s"].notna()]
-        out |= {int(n): float(d) for n, d in zip(rows["transition"], rows["duration_s"], strict=True)}
+        out |= {
+            int(n): float(d) for n, d in zip(rows["transition"], rows["duration_s"], strict=True)
+        }
     return model, out
 
 

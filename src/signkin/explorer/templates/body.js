@@ -28,6 +28,11 @@ function stage() {
     middle.push((low + high) / 2);
     reach.push(Math.max((high - low) / 2, 1e-9));
   }
+  if ("head" in PLACE || "nose" in PLACE) { // the head is drawn around its joint
+    const lift = 0.14 * reach[2];
+    middle[2] += lift;
+    reach[2] += lift;
+  }
   const most = Math.max(...reach);
   return { middle, reach: reach.map((r) => Math.max(r, most * 0.35)) };
 }
@@ -71,6 +76,8 @@ function jointColour(joint) {
   return css("--bone");
 }
 
+const sideOf = (i) => HANDS.find((hand) => BODY.joints[i].startsWith(`${hand}_`)) ?? "";
+
 const FINE = new Set(BODY.joints.filter((j) => /_(thumb|index|middle|ring|pinky)_/.test(j)).map((j) => PLACE[j]));
 
 function drawPosture(canvas, positions, { trail = null, label: name = "" } = {}) {
@@ -79,11 +86,12 @@ function drawPosture(canvas, positions, { trail = null, label: name = "" } = {})
   const project = projection(width, height);
   const at = (i) => project(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
   const known = (i) => !Number.isNaN(positions[3 * i]) && !Number.isNaN(positions[3 * i + 2]);
+  if (BODY.handsOnly && BODY.positions.rows < 1500) drawWays(ctx, project, px);
   if (trail !== null) drawTrails(ctx, project, trail, px);
   ctx.lineCap = "round";
   const size = Math.min(width, height);
   const bones = BODY.bones.filter(([a, b]) => known(a) && known(b))
-    .map(([a, b]) => ({ a: at(a), b: at(b), fine: FINE.has(a) || FINE.has(b), joint: BODY.joints[b] }))
+    .map(([a, b]) => ({ a: at(a), b: at(b), fine: FINE.has(a) || FINE.has(b), joint: sideOf(a) === sideOf(b) || !sideOf(a) ? BODY.joints[b] : "" }))
     .sort((one, other) => one.a[3] + one.b[3] - other.a[3] - other.b[3]);
   for (const bone of bones) {
     ctx.strokeStyle = jointColour(bone.joint);
@@ -126,6 +134,28 @@ function drawHead(ctx, positions, at, known, size) {
   ctx.beginPath();
   ctx.arc(x, y - (joint === "head" ? 0.6 * radius : 0), radius, 0, 2 * Math.PI);
   ctx.stroke();
+}
+
+// The whole way of the wrists of a short recording of few joints, which has no body to look at.
+function drawWays(ctx, project, px) {
+  ctx.lineWidth = px;
+  ctx.globalAlpha = 0.3;
+  for (const hand of HANDS) {
+    const i = PLACE[`${hand}_wrist`];
+    if (i === undefined) continue;
+    ctx.strokeStyle = css(`--${hand}`);
+    ctx.beginPath();
+    let down = false;
+    for (let row = 0; row < BODY.positions.rows; row++) {
+      const [x, y, z] = [0, 1, 2].map((a) => MOTION[3 * i + a][row]);
+      if (Number.isNaN(x)) { down = false; continue; }
+      const [u, v] = project(x, y, z);
+      if (down) ctx.lineTo(u, v); else ctx.moveTo(u, v);
+      down = true;
+    }
+    ctx.stroke();
+  }
+  ctx.globalAlpha = 1;
 }
 
 // Where the wrists came from.

@@ -1,5 +1,6 @@
 // Tags as bars: signs, the other tiers, the refined signs of each hand, the transitions.
 const ROW = 20;
+const SHORT = { utterance: "utter.", translation: "transl." };
 
 function laneRows() {
   const rows = DATA.lanes.map((lane) => ({
@@ -34,7 +35,7 @@ function drawLanes(host, last) {
         const top = to.top + i * height;
         ctx.fillStyle = css("--soft");
         ctx.textAlign = "right";
-        ctx.fillText(short(row.name, 8), to.left - 6 * to.px, top + height / 2);
+        ctx.fillText(SHORT[row.name] ?? short(row.name, 8), to.left - 6 * to.px, top + height / 2);
         ctx.textAlign = "left";
         if (row.flags) drawFlags(ctx, to, top, height); else drawBars(ctx, to, row, top, height);
       });

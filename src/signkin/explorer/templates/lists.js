@@ -1,5 +1,5 @@
 // What is to be looked at, and the transitions, as lists whose rows open at their time.
-const PAGE_ROWS = 50;
+const PAGE_ROWS = innerWidth < 600 ? 15 : 50;
 
 function list(host, rows, fill) {
   let first = 0;

@@ -41,7 +41,7 @@ function readout() {
     const shown = document.querySelectorAll("#orders .chip")[DENSITIES.indexOf(one)];
     const i = Math.round((time - one.first) / one.bin);
     if (shown?.getAttribute("aria-pressed") === "true" && i >= 0 && i < one.curve.length) {
-      parts.push(`P(boundary), order ${one.order}: ${one.curve[i].toFixed(3)}`);
+      parts.push(`P(boundary), order ${one.order}: ${Math.max(0, one.curve[i]).toFixed(3)}`);
     }
   }
   const near = FLAGS.filter((flag) => Math.abs(flag.time - time) < 0.05 + (state.to - state.from) / 200);
@@ -97,6 +97,9 @@ const BUTTONS = {
 };
 
 function listen() {
+  for (const [kind, times] of [["tag", TAGS], ["flag", FLAGS]]) {
+    $(`${kind}-after`).parentElement.hidden = !times.length;
+  }
   for (const [id, act] of Object.entries(BUTTONS)) $(id).addEventListener("click", act);
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => lookFrom(button.dataset.view));
@@ -167,5 +170,5 @@ drawLists();
 turned($("body"));
 stripPointed();
 listen();
-if (!openHash()) { setView(0, Math.min(LAST, 20)); setTime(0); }
+if (!openHash()) { setView(0, Math.min(LAST, innerWidth < 600 ? 6 : 12)); setTime(0); }
 document.body.dataset.ready = "yes";

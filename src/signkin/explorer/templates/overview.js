@@ -29,9 +29,10 @@ function drawOverview() {
 function profile(width) {
   const out = new Float32Array(width);
   for (const curve of Object.values(SPEEDS)) {
-    for (let i = 0; i < curve.length; i++) {
-      const x = Math.min(width - 1, Math.floor((i / curve.length) * width));
-      if (curve[i] > out[x]) out[x] = curve[i];
+    for (let x = 0; x < width; x++) {
+      const first = Math.floor((x / width) * curve.length);
+      const end = Math.max(first + 1, Math.floor(((x + 1) / width) * curve.length));
+      for (let i = first; i < end; i++) if (curve[i] > out[x]) out[x] = curve[i];
     }
   }
   return out;

@@ -12,7 +12,7 @@ function panel(host, { name, height, data, series = [], top = 1, unit = "", mark
     grid: { stroke: () => css("--grid"), width: 1 }, ticks: { stroke: () => css("--grid"), width: 1 },
   };
   const options = {
-    width: Math.max(200, host.clientWidth), height, padding: [6, 8, last ? 0 : 4, 0],
+    width: Math.max(200, host.clientWidth), height, padding: [unit ? 19 : 6, 8, last ? 0 : 4, 0],
     legend: { show: false },
     cursor: { y: false, drag: { x: false, y: false, setScale: false }, sync: { key: "time" },
               points: { show: series.length > 0 } },
