@@ -55,7 +55,7 @@ def content(
         "transitions": events.transitions(
             sources.of("transitions", name), sources.outliers.get(name, []), unit, labels
         ),
-        "gaps": events.gaps(kinematics, unit) if len(kinematics) else {},
+        "gaps": events.gaps(kinematics, unit),
         "speeds": curves.speeds(kinematics, recording.rate_hz, unit) if len(kinematics) else None,
         "boundaries": curves.series_boundaries(
             sources.of("wrist_boundaries", name), sources.of("wrist_posteriors", name)

@@ -126,8 +126,10 @@ def _short(value: float) -> float | None:
 
 def gaps(kinematics: pd.DataFrame, unit: str) -> Mapping[str, list[Any]]:
     """Return where a wrist has no position: hand -> [first ms, last ms, whether it was filled]."""
+    out: dict[str, list[Any]] = {hand: [] for hand in HANDS}
+    if not len(kinematics):
+        return out
     times = kinematics["time_s"].to_numpy(dtype=float)
-    out: dict[str, list[Any]] = {}
     for hand in HANDS:
         if f"{hand}_filled" not in kinematics:
             continue
