@@ -40,6 +40,7 @@ def environment(data: Path | None) -> dict[str, str]:
 
 # The same rules on less: fewer settings, draws and fitted recordings than the shipped ones.
 QUICK = {
+    "report": {"explorer_recordings": 4},
     "binning": {"fitted_recordings": 6, "bootstrap_draws": 200, "chance_trajectories": 400},
     "open_choices": {
         "endres2013": {
