@@ -16,6 +16,7 @@ from signkin.exhibits import exhibits, of_groups
 from signkin.pages.audit import audit_section
 from signkin.pages.corpora import design, first_rows, origin, sign_columns, titled
 from signkin.pages.speeds import SPEED_PANELS
+from signkin.pages.unavailable import unavailable_notices, unavailable_section
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Page, Section, TableView, figure_files
 from signkin.settings import Settings
@@ -68,6 +69,7 @@ def make_page(sources: Sources) -> Page:
     )
     sections += one_wrist_report.sections(sources.results, sources.corpora)
     sections.append(_data_section(sources))
+    sections += unavailable_section(sources.results, sources.corpora)
     sections.append(_choices(sources))
     return Page(
         title="Sign-language motion: transitions between signs, and motor primitives in them",
@@ -118,6 +120,7 @@ def _summary(sources: Sources) -> Section:
         ]
         notices += _read_with_notes(sources, name)
         notices += _implausible(sources, name)
+    notices += unavailable_notices(sources.results, sources.corpora)
     return Section("summary", "Corpora", exhibits=(view,), notices=notices)
 
 
@@ -145,10 +148,12 @@ def _summary_row(sources: Sources, name: str, corpus: Corpus) -> dict[str, objec
         signs = len(about) if corpus.single_signs else None
         return {**row, "signs": signs, "transitions": None, "mean_s": None, "sd_s": None}
     table2 = read_table(sources.naert.file(name, "table2.csv"), "table2").set_index("type")
+    row["signs"] = int(about["signs"].sum())
+    if "all" not in table2.index:  # transitions are not available
+        return {**row, "transitions": None, "mean_s": None, "sd_s": None}
     everything = table2.loc["all"]
     return {
         **row,
-        "signs": int(about["signs"].sum()),
         "transitions": int(everything["n"]),
         "mean_s": float(everything["mean_s"]),
         "sd_s": float(everything["sd_s"]),

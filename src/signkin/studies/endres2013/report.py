@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
+from signkin.report.attempts import attempted
 from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.tables import read_table
 
@@ -73,11 +75,12 @@ def _model(folder: Path, listing: Iterable[Exhibit]) -> Section:
 def _single_signs(
     folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
 ) -> Section:
-    views: list[TableView | FigureView] = [_printed_and_found(folder)]
+    views = attempted("Printed, and found here", partial(_printed_and_found, folder))
     for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
         views.append(view)
         if view.svg.stem == "fig06":
-            views += [_rates(folder, hit_window_s), _tests(folder)]
+            views += attempted("Hit rates", partial(_rates, folder, hit_window_s))
+            views += attempted("Tests of orders", partial(_tests, folder))
     views.append(
         FigureView(
             label="",
@@ -90,8 +93,8 @@ def _single_signs(
             ],
         )
     )
-    views += left_out(folder / "left_out.csv")
-    views += _rejected(folder)
+    views += attempted("Left out", partial(left_out, folder / "left_out.csv"))
+    views += attempted("Rejected draws", partial(_rejected, folder))
     return Section(
         anchor=f"{name}-binning",
         title=f"{name}: Bayesian binning",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import pandas as pd
@@ -13,6 +13,7 @@ import pandas as pd
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.exhibits import Exhibit, exhibits
+from signkin.report.attempts import attempted
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import FigureView, Section, TableView, figure_files
 from signkin.settings import Settings
@@ -93,16 +94,17 @@ def _views(source: Source) -> Iterator[View]:
     captions |= synthesis_report.captions(source.folder)
     for exhibit in source.shown.listing:
         if exhibit.stem in _TABLES:
-            yield _TABLES[exhibit.stem](source, exhibit)
+            yield from attempted(exhibit.title, partial(_TABLES[exhibit.stem], source, exhibit))
         elif exhibit.stem in captions:
             yield exhibit_view(exhibit, source.folder, captions[exhibit.stem])
         if exhibit.stem == "fig06":
-            yield from _refinement(source)
+            yield from attempted("Tags and minima", partial(_refinement, source))
         if exhibit.stem == "fig11":
-            yield from _durations(source, exhibit)
-    yield from _left_out(source)
-    yield _sign_types(source)
-    yield from synthesis_report.views(source.folder, source.corpus.unit)
+            yield from attempted("Durations", partial(_durations, source, exhibit))
+    yield from attempted("Transitions left out", partial(_left_out, source))
+    yield from attempted("Sign types", partial(_sign_types, source))
+    synthesis = partial(synthesis_report.views, source.folder, source.corpus.unit)
+    yield from attempted("Synthesis", synthesis)
     if source.corpus.simulator:
         yield from _simulation(source)
 
