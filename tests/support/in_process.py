@@ -1,7 +1,7 @@
 """All jobs of a run in this process: Snakemake says which, their scripts run one after the other.
 
-A job costs about 1.5 s of start-up in a run of its own. What is tested with this is what the scripts
-make of input, not how Snakemake runs them.
+A job costs about 1.5 s of start-up in a run of its own. What is tested with this is what the
+scripts make of input, not how Snakemake runs them.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
 """What an analysis that cannot run leaves: empty files, and why."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import pandas as pd
@@ -108,7 +109,5 @@ def test_what_is_no_analysis_ends_the_run(here):
         ("results/c/recordings/0001.parquet", ""),
     ],
 )
-def test_the_kind_of_a_table_is_found_by_its_place(path, kind, tmp_path):
-    from pathlib import Path
-
+def test_the_kind_of_a_table_is_found_by_its_place(path, kind):
     assert kind_at(Path(path)) == kind
