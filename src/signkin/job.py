@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from signkin.errors import SignkinError
+from signkin.results.written import forget, record
 from signkin.unavailable import lacking, reason_of, rows_of, write_placeholder, write_rows
 from signkin.yaml_file import read_yaml
 
@@ -85,8 +86,12 @@ class Work:
     def end(self) -> None:
         """Write the rows of what is not available; without any, there is no file."""
         shard = self.snakemake.wildcards.get("shard")
-        name = f"{self.snakemake.rule}{f'.{shard}' if shard else ''}.csv"
-        write_rows(self.rows, self._folder / name)
+        path = self._folder / f"{self.snakemake.rule}{f'.{shard}' if shard else ''}.csv"
+        write_rows(self.rows, path)
+        if self.rows:
+            record([path])
+        else:
+            forget(path)
 
     @property
     def _analysis(self) -> str:
@@ -138,3 +143,4 @@ def job(snakemake: Any, *, analysis: bool = False) -> Iterator[Work]:
             work.fail(error)
         if work.optional:
             work.end()
+        record(snakemake.output)

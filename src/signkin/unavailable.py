@@ -11,6 +11,7 @@ import json
 import re
 from collections.abc import Iterable, Mapping
 from functools import cache
+from html import escape
 from pathlib import Path
 
 import pandas as pd
@@ -79,6 +80,9 @@ def write_placeholder(
             _notice(sentence, path)
         case ".json":  # captions of the figures
             path.write_text(json.dumps(dict.fromkeys(figures, sentence)) + "\n", encoding="utf-8")
+        case ".html":
+            page = f"<!doctype html><title>Not available</title><p>{escape(sentence)}</p>\n"
+            path.write_text(page, encoding="utf-8")
         case ".txt":
             path.write_text(sentence + "\n", encoding="utf-8")
         case _:

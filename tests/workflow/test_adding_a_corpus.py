@@ -25,9 +25,7 @@ MOST_ANSWERS = 5
 def tags(end_s):
     """Return signs of 0.35 s with 0.2 s between them."""
     starts = [0.3 + 0.55 * k for k in range(int((end_s - 0.8) / 0.55))]
-    return [
-        Interval(t, t + 0.35, ("HOUSE", "IX", "CAT")[k % 3], "") for k, t in enumerate(starts)
-    ]
+    return [Interval(t, t + 0.35, ("HOUSE", "IX", "CAT")[k % 3], "") for k, t in enumerate(starts)]
 
 
 def elan(path, end_s):

@@ -6,10 +6,12 @@ from collections.abc import Callable, Iterable
 
 import pandas as pd
 
-from signkin.report.page import FigureView, TableView
+from signkin.errors import SignkinError
+from signkin.report.page import TableView, View
 
-View = TableView | FigureView
 ABSENT = "Not available: the report's table of what could not be made tells why."
+# What a table without rows makes of code that takes a first row, a maximum, a share.
+CANNOT = (ValueError, LookupError, ZeroDivisionError, TypeError, AttributeError, SignkinError)
 
 
 def attempted(title: str, make: Callable[[], View | Iterable[View]]) -> list[View]:
@@ -25,6 +27,6 @@ def attempted(title: str, make: Callable[[], View | Iterable[View]]) -> list[Vie
             return [made]
         for view in made:
             out.append(view)
-    except (ValueError, LookupError, ZeroDivisionError, TypeError, AttributeError):
+    except CANNOT:
         out.append(TableView("", title, ABSENT, pd.DataFrame(), {}))
     return out

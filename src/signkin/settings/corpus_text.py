@@ -1,4 +1,4 @@
-"""docs/corpus-reference.md, written from the models of corpus.yaml and the schemas of its tables."""
+"""docs/corpus-reference.md, made from the models of corpus.yaml and the schemas of its tables."""
 
 from __future__ import annotations
 
@@ -43,7 +43,8 @@ def _sections(model: type[BaseModel], name: str, seen: set[type]) -> Iterator[st
         rows.append(_row(model, key, field))
         inner += [(f"{name}.{key}".lstrip("."), deeper) for deeper in _models(field.annotation)]
     doc = " ".join((model.__doc__ or "").split())
-    yield f"\n{title}\n\n{doc}\n\n| key | default | unit | allowed | what |\n|---|---|---|---|---|\n"
+    yield f"\n{title}\n\n{doc}\n\n| key | default | unit | allowed | what |\n"
+    yield "|---|---|---|---|---|\n"
     yield from rows
     for deeper_name, deeper in inner:
         if deeper not in seen:
