@@ -57,7 +57,8 @@ TABLES = (
     ),
     Table(
         "binning_left_out",
-        "results/endres2013/<corpus>/left_out.csv",
+        "results/endres2013/<corpus>/left_out.csv, wrists_left_out.csv, not_cut.csv, "
+        "not_binned.csv",
         "a trajectory that was not binned",
         (*LEAD, _DATASET, text("reason", "why it was left out")),
     ),
@@ -187,7 +188,8 @@ TABLES = (
     ),
     Table(
         "endres_figure",
-        "results/endres2013/<corpus>/fig03.csv to fig07.csv, figA1.csv, fig_one_wrist.csv",
+        "results/endres2013/<corpus>/fig03.csv, fig04.csv, fig05.csv, fig06.csv, fig07.csv, "
+        "figA1.csv, fig_one_wrist.csv",
         "a point drawn in a figure",
         (
             text("corpus", "corpus, as its folder is called"),

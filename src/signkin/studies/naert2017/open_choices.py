@@ -22,7 +22,7 @@ from signkin.annotation import Interval
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance, normalised
 from signkin.coarticulation.segmentation import chance_distances, nearest, refine
 from signkin.corpus import Corpus
-from signkin.joints import HANDS, arm_joints
+from signkin.joints import HANDS, arm_joints, hands_of
 from signkin.kinematics.derivatives import speed
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
@@ -202,7 +202,8 @@ def _minima(
     rate = filled.rate_hz
     method = {**dict(settings.kinematics.lowpass), "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
     speeds = {
-        hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate) for hand in HANDS
+        hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate)
+        for hand in hands_of(filled.joints)
     }
     fastest = max(float(np.nanpercentile(s, 95)) for s in speeds.values())
     spacing = settings.kinematics.minima.spacing_s
