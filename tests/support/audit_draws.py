@@ -103,6 +103,27 @@ def range_possible(rng):
 
 
 @draw
+def closure(rng):
+    # Small enough to count, mostly; a wide scale is answered by "too many".
+    low, ddof = int(rng.integers(0, 2)), int(rng.integers(2))
+    high = low + int(rng.choice([1, 4, 6, 10]))
+    values = np.rint(low + (high - low) * rng.beta(*rng.uniform(0.3, 3, 2), rng.integers(2, 40)))
+    places = int(rng.integers(1, 4))
+    spread = put(rng, values.std(ddof=ddof), places)
+    return {"mean": put(rng, values.mean(), places), "sd": spread, "n": str(len(values)),
+            "grain": "1", "low": str(low), "high": str(high)}, ""  # fmt: skip
+
+
+@draw
+def sprite(rng):
+    values, low, high = scores(rng)
+    places, ddof = int(rng.integers(1, 4)), int(rng.integers(2))
+    given = {"mean": put(rng, values.mean(), places), "sd": put(rng, values.std(ddof=ddof), places)}
+    return {**given, "n": str(len(values)), "grain": "1", "low": str(low), "high": str(high),
+            "draws": "5"}, ""  # fmt: skip
+
+
+@draw
 def scale_bounds(rng):
     values, low, high = scores(rng)
     values = values if rng.random() < 0.5 else low + (high - low) * rng.random(len(values))

@@ -94,7 +94,7 @@ def item(found: Finding, name: str, source: str) -> Finding:
     """Return a plain finding of a row, without what its check keeps for itself."""
     return Finding(
         found.verdict, found.why, found.printed, found.recomputed, found.interval, source, name,
-        found.settings, found.hand, found.nearest, found.severity, found.fault,
+        found.settings, found.hand, found.nearest, found.severity, found.fault, found.histogram,
     )  # fmt: skip
 
 
