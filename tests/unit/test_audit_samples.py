@@ -54,6 +54,12 @@ def test_what_is_too_much_is_not_counted(tmp_path):
     assert found.why == "too many samples to count; `sprite` shows some"
 
 
+def drawn(mean, sd, n, low, high, draws, rng):
+    span = Span(allowed(sd), Fraction(1), n - 1)
+    sums = grim(mean, n).sums
+    return draw_samples(n, sums, lambda total: span.squares(n, total), low, high, draws, rng)
+
+
 PRINTS = [
     ("5.0", "2.78", 30, 1, 8), ("2.9", "1.99", 50, 1, 5), ("3.00", "2.05", 20, 1, 5),
     ("562", "87", 60, 0, 1000), ("5.0", "2.78", 30, None, None), ("3.21", "1.20", 10_000, 1, 5),
@@ -63,8 +69,7 @@ PRINTS = [
 
 @pytest.mark.parametrize("mean, sd, n, low, high", PRINTS)
 def test_samples_made_print_so(mean, sd, n, low, high):
-    span = Span(allowed(sd), Fraction(1), n - 1)
-    found = draw_samples(n, grim(mean, n).sums, span, low, high, 5, np.random.default_rng(1))
+    found = drawn(mean, sd, n, low, high, 5, np.random.default_rng(1))
     assert found
     for x in found:
         assert len(x) == n
@@ -82,8 +87,7 @@ def test_existing_samples_are_found_again():
         n = int(rng.integers(2, 60))
         x = np.rint(low + (high - low) * rng.beta(*rng.uniform(0.3, 3, 2), n)).astype(int)
         mean, sd = f"{x.mean():.2f}", f"{x.std(ddof=1):.2f}"
-        span = Span(allowed(sd), Fraction(1), n - 1)
-        assert draw_samples(n, grim(mean, n).sums, span, low, high, 2, rng), (mean, sd, n)
+        assert drawn(mean, sd, n, low, high, 2, rng), (mean, sd, n)
 
 
 PAPER = """paper: Me 2026

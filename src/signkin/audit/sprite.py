@@ -8,12 +8,12 @@ like the data.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.audit.whole import Span, Steps, TooLong, bounds_of, most_squares, multisets
+from signkin.audit.whole import Steps, TooLong, bounds_of, most_squares, multisets
 
 MOST_ROUNDS = 400
 FEW = 40  # so few numbers are searched one by one where moving them does not do
@@ -21,16 +21,16 @@ Ints = NDArray[np.int64]
 
 
 def draw_samples(
-    n: int, sums: Sequence[int], span: Span, low: int | None, high: int | None, draws: int,
-    rng: np.random.Generator,
+    n: int, sums: Sequence[int], squares_of: Callable[[int], range], low: int | None,
+    high: int | None, draws: int, rng: np.random.Generator,
 ) -> list[Ints]:  # fmt: skip
     """Return up to `draws` samples of n whole numbers in low..high, each sorted; perhaps none.
 
-    sums, span: what the print allows of the sum, and of the sum of squares.
+    sums, squares_of: what the print allows of the sum, and of the sum of squares beside a sum.
     """
     possible = [
         (total, squares) for total in sums[:: max(1, len(sums) // 200)]
-        if len(squares := _squares(n, total, span, low, high))
+        if len(squares := _squares(n, total, squares_of(total), low, high))
     ]  # fmt: skip
     out: list[Ints] = []
     for _ in range(draws if possible else 0):
@@ -41,8 +41,7 @@ def draw_samples(
     return out or _searched(n, possible, low, high)
 
 
-def _squares(n: int, total: int, span: Span, low: int | None, high: int | None) -> range:
-    squares = span.squares(n, total)
+def _squares(n: int, total: int, squares: range, low: int | None, high: int | None) -> range:
     if not squares or low is None or high is None:
         return squares
     if not n * low <= total <= n * high:
