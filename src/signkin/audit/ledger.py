@@ -86,7 +86,7 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
     for paper in papers:
         faults += [str(fault) for fault in paper.faults]
         for claim in paper.claims:
-            for evidence in (None, *corpora):
+            for evidence in (None, *(corpora if paper.study else ())):
                 done = _run(paper, claim, evidence)
                 verdict, note = _verdict(claim, evidence, done)
                 if evidence is not None:
@@ -173,7 +173,9 @@ def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> 
         return bad, "; ".join(t for t, d in zip(told, done, strict=True) if d.verdict == bad)
     open_ = [(t, d) for t, d in zip(told, done, strict=True) if d.verdict == UNDECIDABLE]
     if all(d.verdict == UNDECIDABLE for d in done) or any(d.check.decisive for _, d in open_):
-        missing = claim.published_missing if evidence is None else f"needs {claim.needs}"
+        missing = claim.published_missing
+        if evidence is not None and claim.needs:
+            missing = f"needs {claim.needs}"
         words = list(dict.fromkeys(t for t, _ in open_))
         if missing and missing not in words:
             words.append(missing)

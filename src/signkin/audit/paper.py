@@ -12,6 +12,7 @@ from signkin.audit.claims_file import GUIDE, MOST_BYTES, read_claims
 from signkin.errors import SignkinError, listed
 from signkin.text_file import text_of
 
+PRINT_ALONE = "it is about the paper's own data"
 OWN = (
     "check",
     "reads",
@@ -100,7 +101,10 @@ class Curve:
 
 @dataclass(frozen=True)
 class Paper:
-    """A paper with its claims. `study`: the folder of its results, `results/<study>`."""
+    """A paper with its claims.
+
+    study: the folder of its results, `results/<study>`; without one the print alone is audited.
+    """
 
     folder: Path
     title: str
@@ -199,7 +203,7 @@ def read_paper(folder: str | Path) -> Paper:
                 file=path, place=f"line {curve.line}",
                 expected=f"1 to {sizes[curve.claim]}, the claim's checks on corpora",
             )  # fmt: skip
-    return Paper(folder, content["paper"], content["study"], claims, curves,
+    return Paper(folder, content["paper"], content.get("study", ""), claims, curves,
                  faults=tuple(file.faults))  # fmt: skip
 
 
@@ -220,7 +224,7 @@ def _claims(
                     beside=c.get("beside", False),
                     line=lines[("claims", i, side, "checks", j)],
                 )
-                for j, c in enumerate(claim[side].get("checks", []))
+                for j, c in enumerate(claim.get(side, {}).get("checks", []))
             )
         yield Claim(
             id=claim["id"],
@@ -230,8 +234,8 @@ def _claims(
             published=checks["published"],
             published_missing=claim["published"].get("missing", ""),
             corpora=checks["corpora"],
-            corpora_missing=claim["corpora"].get("missing", ""),
-            needs=claim["needs"],
+            corpora_missing=claim.get("corpora", {}).get("missing", PRINT_ALONE),
+            needs=claim.get("needs", ""),
             line=lines[("claims", i)],
             made_with_print=tuple(claim.get("by_construction", {}).get("corpora", ())),
             made_why=claim.get("by_construction", {}).get("why", ""),
