@@ -11,10 +11,10 @@ from signkin.tables import read_table
 
 def test_every_claim_has_a_verdict_on_every_corpus_of_the_run(simulated_run):
     found = read_table(simulated_run.results / "audit/claims.csv", "claims")
-    assert found["id"].nunique() == 36
+    assert found["id"].nunique() == 37
     evidence = found.groupby("evidence")["id"].nunique()
     assert "lsf-sim" in evidence.index
-    assert (evidence == 36).all()
+    assert (evidence == 37).all()
     assert (found[["verdict", "note"]] != "").all().all()
     assert set(found.loc[found["evidence"] == "lsf-sim", "evidence_kind"]) == {"simulated"}
     for source in found["source"].str.split().explode().dropna().unique():

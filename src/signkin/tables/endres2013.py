@@ -22,7 +22,9 @@ _COUNTED = (
     Column("without_truth", "", "of these, without a true boundary: in no hit rate"),
 )
 
-TABLES = (
+_READING = text("reading", "as configured, or without which rule of ours")
+
+_OWN = (
     Table(
         "ground_truth",
         "results/endres2013/<corpus>/ground_truth.csv",
@@ -282,4 +284,25 @@ TABLES = (
             NOTE,
         ),
     ),
+)
+
+
+def _as_read(name: str) -> Table:
+    """Return a table of the study once more, with the reading that its rows were made under."""
+    of = next(table for table in _OWN if table.name == name)
+    path = f"results/endres2013/<corpus>/readings_{name}.csv"
+    row = f"{of.row}; under a reading as printed"
+    return Table(f"readings_{name}", path, row, (_READING, *of.columns))
+
+
+_EQUAL = Table(
+    "equal_bins",
+    "results/endres2013/<corpus>/equal_bins.csv",
+    "a recorded trajectory, or its ground truth in as many bins, and a polynomial order",
+    next(table for table in _OWN if table.name == "binning").columns,
+)
+TABLES = (
+    *_OWN,
+    _EQUAL,
+    *map(_as_read, ("binning", "hit_rates", "order_posteriors", "ground_truth")),
 )
