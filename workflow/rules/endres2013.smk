@@ -152,6 +152,30 @@ rule printed_readings:
         "../scripts/endres2013/readings.py"
 
 
+rule recorded_laws:
+    """Power laws of recorded segments, and what noise and filter do to exponents (2.3)."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        posteriors=of_shards(rules.bin_single_signs.output.posteriors),
+        about=rules.gather.output.recordings,
+    output:
+        recorded_laws="<results>/endres2013/{corpus}/recorded_laws.csv",
+        law_pitfalls="<results>/endres2013/{corpus}/law_pitfalls.csv",
+        svg="<results>/endres2013/{corpus}/fig_recorded_laws.svg",
+        pdf="<results>/endres2013/{corpus}/fig_recorded_laws.pdf",
+        caption="<results>/endres2013/{corpus}/recorded_laws.txt",
+    log:
+        "<logs>/endres2013/{corpus}/recorded_laws.log",
+    params:
+        code=PLAN.digest("endres2013/recorded_laws.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=SETTINGS.seed,
+        settings=CutSettings.of(SETTINGS),
+        recordings=SETTINGS.binning.fitted_recordings,
+    script:
+        "../scripts/endres2013/recorded_laws.py"
+
+
 rule binning_scheme:
     """The model as a drawing (Fig. 2)."""
     input:
@@ -174,6 +198,7 @@ rule endres2013:
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
         collect(rules.order_choices.output, corpus=PLAN.single_signs),
         collect(rules.printed_readings.output, corpus=PLAN.single_signs),
+        collect(rules.recorded_laws.output, corpus=PLAN.single_signs),
         collect(rules.one_wrist.output, corpus=PLAN.continuous),
         collect(
             rules.binning_elan.output,

@@ -90,6 +90,19 @@ def _single_signs(
             ],
         )
     )
+    views.append(
+        FigureView(
+            label="",
+            title="Power laws of recorded movement, and of noise",
+            caption=(folder / "recorded_laws.txt").read_text(encoding="utf-8").strip(),
+            svg=folder / "fig_recorded_laws.svg",
+            files=[
+                *figure_files(folder / "fig_recorded_laws", ".svg", ".pdf"),
+                folder / "recorded_laws.csv",
+                folder / "law_pitfalls.csv",
+            ],
+        )
+    )
     views += left_out(folder / "left_out.csv")
     views += _rejected(folder)
     return Section(
