@@ -94,21 +94,28 @@ def _single_signs(
             rates, tests = partial(_rates, folder, hit_window_s), partial(_tests, folder)
             yield from (("truth", view) for view in attempted("Hit rates", rates))
             yield from (("truth", view) for view in attempted("Tests of orders", tests))
-    choices = FigureView(
-        label="",
-        title="Orders under all choices",
-        caption=(folder / "order_choices.txt").read_text(encoding="utf-8").strip(),
-        svg=folder / "fig_order_choices.svg",
-        files=[
-            *figure_files(folder / "fig_order_choices", ".svg", ".pdf"),
-            folder / "order_choices.csv",
-        ],
-    )
-    yield "choices", choices
+    yield "choices", _figure(folder, "order_choices", "Orders under all choices")
+    title = "Power laws of recorded movement, and of noise"
+    yield "power-laws", _figure(folder, "recorded_laws", title, "law_pitfalls.csv")
     out = partial(left_out, folder / "left_out.csv")
     yield from (("left-out", view) for view in attempted("Left out", out))
     rejected = partial(_rejected, folder)
     yield from (("power-laws", view) for view in attempted("Rejected draws", rejected))
+
+
+def _figure(folder: Path, name: str, title: str, *others: str) -> FigureView:
+    """Return the view of a figure that is no exhibit; others: tables beside its own."""
+    base = folder / f"fig_{name}"
+    return FigureView(
+        label="",
+        title=title,
+        caption=(folder / f"{name}.txt").read_text(encoding="utf-8").strip(),
+        svg=base.with_suffix(".svg"),
+        files=[
+            *figure_files(base, ".svg", ".pdf"),
+            *(folder / f for f in (f"{name}.csv", *others)),
+        ],
+    )
 
 
 # --- tables ----------------------------------------------------------------------------------
