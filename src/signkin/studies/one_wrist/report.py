@@ -10,7 +10,7 @@ import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.report.attempts import attempted
-from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.studies.endres2013.report import P3, SIMULATED, badge, left_out
 from signkin.tables import read_table
 
@@ -59,7 +59,7 @@ def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
         svg=folder / "fig_one_wrist.svg",
         files=figure_files(folder / "fig_one_wrist"),
     )
-    views: list[TableView | FigureView] = [figure, compared]
+    views: list[View] = [figure, compared]
     views += attempted("Wrists in bins", partial(_wrists, folder))
     views += left_out(folder / "wrists_left_out.csv")
     text: Sequence[str] = [
