@@ -132,7 +132,7 @@ def test_init_asks_at_most_five_questions_and_check_finds_nothing_wrong(walked):
 
 def test_make_comes_to_the_report_of_all_three(walked, home):
     done = made(home, walked[1][0])
-    assert done[-1].rule == "report"
+    assert "report" in {job.rule for job in done}
     assert not done[-1].failed, done[-1]
     for name in FOLDERS:
         moves = (home / f"work/results/naert2017/{name}/transitions.csv").read_text()

@@ -95,7 +95,7 @@ def draw(points: pd.DataFrame, excerpt: Excerpt, unit: str) -> Figure:
     excerpts = {f"{hand} wrist": hand for hand in HANDS}
     shown = {p: hand for p, hand in excerpts.items() if (points["panel"] == p).any()}
     panels = [name for name in dict.fromkeys(points["panel"]) if name not in excerpts]
-    columns = max(len(panels) // len(HANDS), 1)
+    columns = max(-(-len(panels) // len(HANDS)), 1)  # one hand may have an odd number of them
     figure = plt.figure(figsize=(WIDTH_IN * 1.2, 3.6 + 2.5 * len(HANDS)))
     grid = figure.add_gridspec(4, columns, height_ratios=[1, 1, 1.55, 1.55])
     for i, (panel, hand) in enumerate(shown.items()):
