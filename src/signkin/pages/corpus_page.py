@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -24,6 +25,7 @@ from signkin.pages.corpus_views import (
 )
 from signkin.pages.sources import Sources
 from signkin.pages.warnings import groups
+from signkin.ratings import Rating, tag_ratings
 from signkin.report.page import Page, Section
 from signkin.studies.naert2017.report import left_out_views, refinement_views, sign_types_view
 from signkin.tables import read_table, write_table
@@ -83,17 +85,41 @@ class Owner:
         return overview_of(self.about, gaps, plausibility, self.durations, self.tags)
 
     @cached_property
+    def ratings(self) -> dict[str, list[Rating]]:
+        """Recording -> ratings of it and of its tags, as this run read them."""
+        corpus = self.sources.corpora[self.name]
+        out = {name: list(own) for name, own in tag_ratings(corpus.folder).items()}
+        for entry in corpus.entries:
+            if entry.rating or entry.rating_note:
+                rating = Rating(entry.recording, entry.rating, entry.rating_note)
+                out.setdefault(entry.recording, []).append(rating)
+        return out
+
+    def rating(self, row: Any) -> Rating | None:
+        """Return the rating of a row of a table: of its tag, or of its recording."""
+        tag = getattr(row, "what", "recording") == "tag"
+        for one in self.ratings.get(row.recording, ()):
+            if one.of_tag == tag and (not tag or one.matches(row.start_s, row.gloss)):
+                return one
+        return None
+
+    @cached_property
     def todo(self) -> pd.DataFrame:
-        """What to look at."""
+        """What to look at; what is rated ok goes last."""
         worst = outliers = None
         if self.boundaries is not None:
             worst = worst_tags(self.boundaries, self.sources.table(self.name, "intervals"))
             outliers = read_table(self.sources.tagged_file(self.name, "fig07"), "distances")
-        return todo_of(
+        found = todo_of(
             self.overview, self.sources.table(self.name, "excluded"),
             self.sources.table(self.name, "plausibility"), worst, self.transitions, outliers,
             self.window_s,
         )  # fmt: skip
+        ok = [
+            (r := self.rating(row)) is not None and r.rating == "ok" for row in found.itertuples()
+        ]
+        found.loc[ok, "rank"] = 4
+        return found.sort_values("rank", kind="stable", ignore_index=True)
 
     def write(self, folder: Path) -> dict[str, Path]:
         """Write the tables of the page into a folder; returns what -> file."""
@@ -163,7 +189,7 @@ def _short(owner: Owner) -> Section:
         text.append("There is no transition between two signs of one utterance.")
     if owner.tags is not None:
         text += _tags_told(owner)
-    many = len(owner.todo)
+    many = int((owner.todo["rank"] < 4).sum())
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
         f"{many} things to look at, {grave} of them because results may be wrong."
@@ -287,6 +313,9 @@ def _files(owner: Owner) -> Section:
         own += [(f"ELAN: {file.name}", file) for file in files[:20]]
         if len(files) > 20:
             own.append((f"all {len(files)} ELAN files", folder))
+    listing = owner.sources.home / "recordings" / f"{owner.name}.html"
+    if listing.is_file():
+        shared.insert(0, ("The pages of single recordings", listing))
     text = (
         "All tables of the corpus, to go on with. ELAN files have the refined tags in tiers of "
         "their own."

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 S3 = ".3f"
 ROW_KEYS = ("recording", "signer")
+RATED = ("rated", "noted")
 
 
 # --- recordings ------------------------------------------------------------------------------
@@ -32,6 +33,7 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
         page=[owner.sources.excerpt(owner.name, r) for r in owner.overview["recording"]],
         rating="",
     )
+    frame = rated(owner, frame)
     extra = owner.about.set_index("recording")
     for column in sign_columns(owner.sources.corpora[owner.name]):
         frame[column] = frame["recording"].map(extra[column])
@@ -60,7 +62,7 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
         columns=columns,
         file=file,
         most=25,
-        keys=ROW_KEYS,
+        keys=(*ROW_KEYS, *RATED),
     )
 
 
@@ -149,6 +151,18 @@ def _lengths(owner: Owner) -> PlotView:
     )
 
 
+def rated(owner: Owner, frame: pd.DataFrame) -> pd.DataFrame:
+    """Return rows with what their owner thought of them before this run."""
+    found = [owner.rating(row) for row in frame.itertuples()]
+    return frame.assign(
+        rated=[one.rating if one else "" for one in found],
+        noted=[one.note if one else "" for one in found],
+    )
+
+
+URGENCY = {1: "results may be wrong", 2: "look", 3: "if there is time", 4: "rated ok"}
+
+
 def todo_view(owner: Owner, file: Path) -> TableView:
     """Return the list of what to look at."""
     frame = owner.todo
@@ -160,8 +174,9 @@ def todo_view(owner: Owner, file: Path) -> TableView:
         rating="",
         start=_key(frame["start_s"], frame["what"]),
         end=_key(frame["end_s"], frame["what"]),
-        urgency=frame["rank"].map({1: "results may be wrong", 2: "look", 3: "if there is time"}),
+        urgency=frame["rank"].map(URGENCY),
     )
+    frame = rated(owner, frame)
     columns: dict[str, tuple[str, str]] = {
         "urgency": ("how urgent", ""), "what": ("what", ""), "recording": ("recording", ""),
         "signer": ("signer", ""), "gloss": ("sign", ""), "start_s": ("from (s)", ".2f"),
@@ -181,7 +196,7 @@ def todo_view(owner: Owner, file: Path) -> TableView:
         columns=columns,
         file=file,
         most=20,
-        keys=("recording", "signer", "what", "start", "end", "gloss"),
+        keys=("recording", "signer", "what", "start", "end", "gloss", *RATED),
     )
 
 
