@@ -14,6 +14,7 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+from signkin.cost import noted
 from signkin.errors import SignkinError
 from signkin.results.written import record
 
@@ -28,6 +29,7 @@ def job(snakemake: Any) -> Iterator[None]:
         log_path.open("w", encoding="utf-8", buffering=1) as log,
         redirect_stdout(log),
         redirect_stderr(log),
+        noted(log_path, str(snakemake.rule), " ".join(map(str, snakemake.wildcards))),
     ):
         warnings.simplefilter("default")
         try:

@@ -201,5 +201,8 @@ for (const point of document.querySelectorAll("svg.plot [data-recording]")) {
   point.addEventListener("click", () => choose("recording", point.dataset.recording));
 }
 document.addEventListener("keydown", event => { if (event.key === "Escape") choose("", ""); });
+if (matchMedia("(max-width: 900px)").matches) {
+  document.querySelector("nav .contents").open = false;
+}
 document.documentElement.classList.add("ready");
 })();
