@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +14,7 @@ from signkin import tables
 from signkin.pages.corpora import design, origin
 from signkin.pages.corpus_durations import counted, durations_of
 from signkin.pages.corpus_list import overview_of, todo_of
-from signkin.pages.corpus_tags import tags_of, worst_tags
+from signkin.pages.corpus_tags import against_chance, tags_of, worst_tags
 from signkin.pages.corpus_views import (
     duration_views,
     recordings_views,
@@ -188,7 +187,8 @@ def _short(owner: Owner) -> Section:
     elif owner.tagged:
         text.append("There is no transition between two signs of one utterance.")
     if owner.tags is not None:
-        text += _tags_told(owner)
+        chance = owner.sources.tagged_table(owner.name, "tag_chance")
+        text += against_chance(chance, owner.window_s, owner.sources.settings.durations.alpha)
     many = int((owner.todo["rank"] < 4).sum())
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
@@ -204,23 +204,6 @@ def _short(owner: Owner) -> Section:
 def _range(values: pd.Series) -> str:
     low, high = values.min(), values.max()
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
-
-
-def _tags_told(owner: Owner) -> Iterator[str]:
-    chance = owner.sources.tagged_table(owner.name, "tag_chance")
-    chance = chance[
-        (chance["tags"] == "all") & (chance["null"] == "circular shift")
-        & (chance["measure"] == "share within the window")
-        & ((chance["window_s"] - owner.window_s).abs() < 1e-9)
-    ]  # fmt: skip
-    for row in chance.itertuples():
-        better = row.value > row.chance_high
-        yield (
-            f"Tags and the {row.hand} hand: {row.value:.0%} of the starts and ends lie within "
-            f"{owner.window_s:g} s of a minimum of its speed; the same tags shifted in time would "
-            f"give {row.chance_low:.0%} to {row.chance_high:.0%}. "
-            + ("They mark where the hand slows down." if better else "That is no more than chance.")
-        )
 
 
 def _recordings(owner: Owner, files: dict[str, Path]) -> Section:

@@ -10,6 +10,7 @@ import pandas as pd
 
 from signkin.audit.ledger import PRINT
 from signkin.corpus import Corpus
+from signkin.pages.corpus_tags import against_chance
 from signkin.pages.sources import Sources
 from signkin.pages.warnings import counted, groups
 from signkin.report.page import Section, TableView
@@ -166,27 +167,12 @@ def _owner_findings(sources: Sources) -> Section:
 def _tag_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
     if not sources.corpora[name].tagged:
         return
-    window = sources.settings.refinement.search_window_s
-    frame = sources.tagged_table(name, "tag_chance")
-    kept = frame[
-        (frame["tags"] == "all") & (frame["null"] == "circular shift")
-        & (frame["measure"] == "share within the window")
-        & ((frame["window_s"] - window).abs() < 1e-9)
-    ]  # fmt: skip
-    for row in kept.itertuples():
-        better = row.value > row.chance_high
-        told = (
-            f"{row.value:.0%} of {row.n} tags lie within {window:g} s of a minimum of speed of the "
-            f"{row.hand} hand; by chance {row.chance_low:.0%} to {row.chance_high:.0%}: "
-            + ("nearer than chance." if better else "no nearer than chance.")
-        )
-        yield _finding(
-            sources,
-            name,
-            "Do tags lie where the hand slows down?",
-            told,
-            f"corpora/{name}.html#tags",
-        )
+    settings = sources.settings
+    chance = sources.tagged_table(name, "tag_chance")
+    window, alpha = settings.refinement.search_window_s, settings.durations.alpha
+    for told in against_chance(chance, window, alpha):
+        question = "Do tags lie where the hand slows down?"
+        yield _finding(sources, name, question, told, f"corpora/{name}.html#tags")
 
 
 def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
