@@ -68,7 +68,8 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
 
 def _plots(owner: Owner) -> Iterator[PlotView]:
     if owner.transitions is not None and len(counted(owner.transitions)):
-        yield _means(owner)
+        if owner.overview["mean_s"].notna().sum() > 1:
+            yield _means(owner)
         yield _distances(owner)
     elif len(owner.overview):
         yield _lengths(owner)
