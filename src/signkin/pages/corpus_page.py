@@ -214,7 +214,8 @@ def _short(owner: Owner) -> Section:
     many = int((owner.todo["rank"] < 4).sum())
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
-        f"{many} things to look at, {grave} of them because results may be wrong."
+        f"{counted_words(many, 'thing', 'things')} to look at; because of {grave} of them results "
+        "may be wrong."
         if many else "Nothing in it looks odd."
     )  # fmt: skip
     return Section(

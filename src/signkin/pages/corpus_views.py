@@ -130,6 +130,8 @@ def _distances(owner: Owner) -> PlotView:
 
 def _lengths(owner: Owner) -> PlotView:
     rows = owner.overview
+    if not rows["gap_share"].any():
+        return _whole(owner)
     points = [
         Point(
             row.duration_s, row.gap_share * 100, row.recording, row.signer,
@@ -162,6 +164,28 @@ def rated(owner: Owner, frame: pd.DataFrame) -> pd.DataFrame:
 
 
 URGENCY = {1: "results may be wrong", 2: "look", 3: "if there is time", 4: "rated ok"}
+
+
+def _whole(owner: Owner) -> PlotView:
+    """Return lengths alone, where nothing is missing."""
+    rows = owner.overview.sort_values("duration_s", kind="stable")
+    points = [
+        Point(rank, row.duration_s, row.recording, row.signer,
+              f"{row.recording}, {row.signer}: {row.duration_s:.2f} s")
+        for rank, row in enumerate(rows.itertuples(), start=1)
+    ]  # fmt: skip
+    shown, told = thinned(points)
+    finding = (
+        f"Lengths of {len(rows)} recordings go from {rows['duration_s'].min():.2f} to "
+        f"{rows['duration_s'].max():.2f} s; half of them are longer than "
+        f"{rows['duration_s'].median():.2f} s. No position is missing."
+    )
+    return PlotView(
+        label="",
+        title="Length of each recording",
+        caption=f"{finding} Shortest first.{told}",
+        drawing=scatter(shown, "recordings, shortest first", "length (s)", finding, numbers=False),
+    )
 
 
 def todo_view(owner: Owner, file: Path) -> TableView:

@@ -148,6 +148,7 @@ def _owner_findings(sources: Sources) -> Section:
     order = sorted(sources.corpora, key=lambda name: sources.corpora[name].simulator is not None)
     rows = [row for name in order for row in _tag_findings(sources, name)]
     rows += [row for name in order for row in _duration_findings(sources, name)]
+    rows += [row for name in order for row in _piece_findings(sources, name)]
     view = TableView(
         label="",
         title="Findings by corpus",
