@@ -190,6 +190,36 @@ def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
         yield _finding(sources, name, question, first, "papers/naert2017.html#durations")
 
 
+def _piece_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
+    folder = sources.results / "endres2013" / name
+    if sources.corpora[name].single_signs:
+        frame = read_table(folder / "order_posteriors.csv", "order_posteriors")
+        whole = (frame["signer"] == "all") & (frame["sign"] == "all")
+        kept = frame[whole & (frame["dataset"] == "recorded")]
+        if kept["mean_probability"].notna().any():
+            best = kept.loc[kept["mean_probability"].idxmax()]
+            told = (
+                f"Order {int(best['order'])} is the most probable (P = "
+                f"{best['mean_probability']:.2f} on average), with {best['mean_count']:.1f} "
+                "boundaries a movement; the paper has order 4. A prior that it does not print "
+                "decides this."
+            )
+            question = "Which polynomials are the pieces of a movement?"
+            yield _finding(sources, name, question, told, "papers/endres2013.html#found")
+        return
+    frame = read_table(folder / "one_wrist.csv", "one_wrist")
+    kept = frame[(frame["found"] == "boundaries") & (frame["truth"] == "manual tags")]
+    for row in kept[kept["hit_rate"].notna()].itertuples():
+        more = row.hit_rate > row.chance_high
+        told = (
+            f"{row.hit_rate:.0%} of the tags have a boundary of the {row.hand} wrist within "
+            f"{row.window_s:g} s, by chance {row.chance_low:.0%} to {row.chance_high:.0%}: "
+            + ("more than chance." if more else "no more than chance.")
+        )
+        question = "Do pieces of a wrist's path start and end where signs do?"
+        yield _finding(sources, name, question, told, f"papers/one_wrist.html#{name}")
+
+
 def _finding(sources: Sources, name: str, question: str, found: str, more: str) -> dict[str, str]:
     return {
         "page": f"corpora/{name}.html",
