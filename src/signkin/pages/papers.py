@@ -36,8 +36,16 @@ def naert_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
 
 
 def _folded(section: Section) -> Section:
-    """Return a section with what the paper does not have behind its title."""
-    views = [replace(view, folded=not view.label) for view in section.exhibits]
+    """Return a section with what the paper does not have behind its title.
+
+    How a figure differs from the print is told at the first corpus alone.
+    """
+    told: set[str] = set()
+    views = []
+    for view in section.exhibits:
+        differs = "" if view.label in told else view.differs
+        told |= {view.label} if view.label else set()
+        views.append(replace(view, folded=not view.label, differs=differs))
     return replace(section, exhibits=views)
 
 
@@ -52,7 +60,7 @@ def endres_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
         "The paper's analyses of single signs, run on every corpus of single signs. Its own "
         "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of the "
         "prior decides its results: each corpus has a figure of how far.",
-        list(parts),
+        [_folded(part) for part in parts],
     )  # fmt: skip
 
 
