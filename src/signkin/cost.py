@@ -43,6 +43,27 @@ def _peak_mb() -> float | None:
     return round(peak / (1e6 if sys.platform == "darwin" else 1e3), 1)
 
 
+def failure(logs: Path, since: float) -> str:
+    """Return which step of a run failed, why in one sentence and where its log is; '' for none.
+
+    since: when the run began; of several, the first that failed is told.
+    """
+    found = []
+    for path in logs.rglob("*.log") if logs.is_dir() else ():
+        if path.stat().st_mtime >= since and path.with_suffix(SUFFIX).is_file():
+            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            why = [line for line in lines if line.startswith("signkin: ")]
+            if why or any(line.startswith("Traceback") for line in lines):
+                told = why[-1] if why else lines[-1]
+                found.append((path.stat().st_mtime, told.removeprefix("signkin: "), path))
+    if not found:
+        return ""
+    _, why_, path = min(found)
+    cost = json.loads(path.with_suffix(SUFFIX).read_text(encoding="utf-8"))
+    about = f" ({cost['about']})" if cost["about"] else ""
+    return f"signkin: the step {cost['rule']}{about} failed: {why_}\nIts log: {path}"
+
+
 def read_costs(logs: Path) -> list[dict[str, object]]:
     """Return what was noted below a folder of logs, in order of name."""
     return [

@@ -43,6 +43,7 @@ rule report:
         front="<results>/report/index.html",
         pages=[f"<results>/report/{name}.html" for name in ("methods", "provenance")],
         data_files="<results>/report/data_files.csv",
+        summary="<results>/report/summary.txt",
         corpora=directory("<results>/report/corpora"),
         papers=directory("<results>/report/papers"),
         images=directory("<results>/report/images"),

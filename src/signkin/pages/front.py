@@ -55,6 +55,23 @@ def front_lead(sources: Sources) -> tuple[str, ...]:
     )
 
 
+def summary_lines(sources: Sources) -> list[str]:
+    """Return what a run says at its end: what to look at, then the lines that matter."""
+    warned = [group.told for group in groups(sources) if group.warns]
+    claims = read_table(sources.results / "audit" / "claims.csv", "claims")
+    printed = claims[claims["evidence"] == PRINT].drop_duplicates(["paper", "id"])
+    verdicts = printed["verdict"].value_counts()
+    outcomes = _outcomes(claims)["outcome"].value_counts()
+    whole = ", ".join(f"{n} {word}" for word, n in verdicts.items())
+    real = ", ".join(f"{n} {word}" for word, n in outcomes.items())
+    return [
+        *(f"Look at: {told}." for told in warned),
+        front_lead(sources)[0].partition(". ")[0] + ".",
+        f"Claims on print: {whole}.",
+        f"Claims on real recordings: {real}.",
+    ]
+
+
 def _first(sources: Sources) -> Section:
     found = groups(sources)
     text = ["Nothing was left out, and nothing looks wrong."] if not found else []

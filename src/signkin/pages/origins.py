@@ -16,6 +16,7 @@ from signkin import tables
 from signkin.checkout import checkout
 from signkin.exhibits import exhibits, of_groups
 from signkin.pages.sources import Sources
+from signkin.pages.times import TIMES
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import Page, Section, TableView
 from signkin.tables import write_table
@@ -158,5 +159,5 @@ def _cost(sources: Sources) -> Section:
         "cost", "Time and memory",
         text=("Every job notes its time and memory; they differ from run to run, so they stand on "
               "a page of their own, which `signkin run` writes at its end.",),
-        links=(("Time and memory of each step", sources.home / "times.html"),),
+        links=(("Time and memory of each step", sources.results.parent / "logs" / TIMES),),
     )  # fmt: skip

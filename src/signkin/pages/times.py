@@ -17,12 +17,15 @@ TIMES = "times.html"
 
 
 def write_times(logs: Path, home: Path) -> Path | None:
-    """Write the page of costs into the report's folder; None where nothing was noted."""
-    costs = pd.DataFrame(read_costs(logs))
-    if costs.empty or not home.is_dir():
+    """Write the page of costs beside the logs; None where nothing was noted.
+
+    home: the report's folder, for links. The results hold only what jobs wrote.
+    """
+    costs = pd.DataFrame(read_costs(logs)) if logs.is_dir() else pd.DataFrame()
+    if costs.empty:
         return None
     site = [("Front page", home / "index.html"), ("Provenance", home / "provenance.html"),
-            ("Time and memory", home / TIMES)]  # fmt: skip
+            ("Time and memory", logs / TIMES)]  # fmt: skip
     page = Page(
         title="Time and memory of each step",
         lead=(
@@ -35,8 +38,8 @@ def write_times(logs: Path, home: Path) -> Path | None:
         site=site,
         here="Time and memory",
     )
-    (home / TIMES).write_text(render(page, home), encoding="utf-8")
-    return home / TIMES
+    (logs / TIMES).write_text(render(page, logs), encoding="utf-8")
+    return logs / TIMES
 
 
 def _steps(costs: pd.DataFrame) -> Section:
