@@ -110,15 +110,20 @@ def test_hover_shows_values_and_a_click_goes_there(opened):
 
 
 def test_playback_moves_the_skeleton_and_stops_at_the_end(opened):
-    page = opened("tagged/one", "#t=5.6")
+    page = opened("tagged/one", "#t=1")
     first, share = drawn(page, "body")
     assert share > 0.01
+    page.select_option("#pace", "0.25")
     press(page, " ")
+    page.wait_for_function("() => Number(document.body.dataset.time) > 1.1")
     assert page.inner_text("#play") == "Pause"
-    page.wait_for_function("() => Number(document.body.dataset.time) > 5.7")
     assert drawn(page, "body")[0] != first
+    press(page, "End")
+    assert page.inner_text("#play") == "Play"
+    press(page, "ArrowLeft")
+    press(page, " ")
+    page.wait_for_function("() => Number(document.body.dataset.time) > 5.999")
     page.wait_for_function("() => document.getElementById('play').textContent === 'Play'")
-    assert time_of(page) == pytest.approx(6.0, abs=1e-3)
 
 
 def test_keys_go_to_tags_flags_and_transitions_and_zoom(opened):
