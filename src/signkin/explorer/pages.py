@@ -48,14 +48,9 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     troubles = sources.troubles()
     names = chosen(sources.names(), troubles, sources.settings.most_recordings)
-    template = _environment().get_template("explorer.html.j2")
     beside = dict(zip(names, zip([None, *names], [*names[1:], None], strict=False), strict=True))
     for name, data in _contents(sources, names):
-        before, after = beside[name]
-        html = template.render(
-            data=data, json=Markup(as_json(data)), before=before, after=after,
-            listing=listing.name, version=signkin.__version__, **_parts(),
-        )  # fmt: skip
+        html = render(data, *beside[name], listing.name)
         (folder / f"{name}.html").write_text(html, encoding="utf-8")
     rows = [
         Listed(
@@ -78,6 +73,23 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
         )
     )  # fmt: skip
     listing.write_text(html, encoding="utf-8")
+
+
+def render(data: Mapping[str, Any], before: str | None, after: str | None, listing: str) -> str:
+    """Return a page as HTML. before, after: recordings beside it that have one. listing: a file."""
+    return (
+        _environment()
+        .get_template("explorer.html.j2")
+        .render(
+            data=data,
+            json=Markup(as_json(data)),
+            before=before,
+            after=after,
+            listing=listing,
+            version=signkin.__version__,
+            **_parts(),
+        )
+    )
 
 
 def _contents(sources: Sources, names: Sequence[str]) -> Iterator[tuple[str, dict[str, Any]]]:
