@@ -3,8 +3,10 @@
 import json
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from signkin.explorer.choice import chosen
@@ -225,3 +227,22 @@ def test_half_of_the_pages_go_to_those_with_most_to_look_at():
     assert {"r000", "r099"} <= set(found)
     assert chosen(names, {}, None) == names == chosen(names, {}, 100)
     assert chosen(names, {"r004": 1}, 1) in (["r000"], ["r004"])
+
+
+def test_an_analysis_that_is_not_there_leaves_the_rest_of_the_page(tmp_path):
+    """Its tables have no rows and its Parquet files no columns (signkin.unavailable)."""
+    sources = made_up(tmp_path / "made", [signer(seconds=2.0)], SIGNS[:2])
+    tables = {
+        name: frame.iloc[:0] for name, frame in sources.tables.items() if name != "recordings"
+    }
+    pd.DataFrame().to_parquet(tmp_path / "empty.parquet")
+    bare = replace(
+        sources,
+        tables={**tables, "recordings": sources.tables["recordings"]},
+        frames=[tmp_path / "empty.parquet"],
+        posteriors=[tmp_path / "empty.parquet"],
+    )
+    write_pages(bare, tmp_path / "pages", tmp_path / "pages.html")
+    _, data = content_of(tmp_path)
+    assert data["skeleton"]["positions"]["rows"] == 100
+    assert data["speeds"] is None and data["densities"] == [] and data["lanes"] == []
