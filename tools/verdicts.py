@@ -27,10 +27,12 @@ LENGTH = 330
 HEAD = """# Verdicts: before and now
 
 Made by `python -m tools.verdicts OLD NEW` from the ledgers (`audit/claims.csv`) of two runs on the
-same corpora: before verdicts had levels, and now. What the levels mean: [claims.md](claims.md); what
-rules of ours add to the print, and how far that moves a claim: [interpretations.md](interpretations.md).
+same corpora: before verdicts had levels, and now. What the levels mean: [claims.md](claims.md);
+what rules of ours add to the print, and how far that moves a claim:
+[interpretations.md](interpretations.md).
 
-A cell is `before → now`, or one verdict where it stayed; – is not testable, constr. by construction.
+A cell is `before → now`, or one verdict where it stayed; – is not testable, constr. by
+construction.
 Corpora that can test no claim of a paper are left out of its table.
 """
 
@@ -99,7 +101,8 @@ def page(old: pd.DataFrame, new: pd.DataFrame) -> str:
             f"## {paper}\n\n{matrix(old, new, paper)}\n"
             for paper in dict.fromkeys(new.index.get_level_values("paper"))
         ),
-        f"## What changed, and why\n\nThe note of the new ledger, shortened.\n\n{changes(old, new)}\n",
+        "## What changed, and why\n\nThe note of the new ledger, shortened.\n\n"
+        f"{changes(old, new)}\n",
         f"## With and without what we add to the print\n\n{printed(new)}\n",
     )
     return "\n".join(parts)

@@ -1,6 +1,5 @@
 """Durations under the plain rule of refinement, and r against random intervals."""
 
-
 import numpy as np
 import pandas as pd
 import pytest
