@@ -3,7 +3,7 @@ const ORDER_DASHES = [[], [7, 3], [2, 2], [8, 3, 2, 3], [12, 3], [1, 3], [5, 5],
 
 function drawDensities(host, chips) {
   if (DENSITIES.length) drawOrders(host, chips);
-  else if (DATA.boundaries.length) drawStems(host);
+  else if (STEMS.length) drawStems(host);
 }
 
 function drawOrders(host, chips) {
@@ -43,13 +43,13 @@ function drawOrders(host, chips) {
 }
 
 function drawStems(host) {
-  const orders = [...new Set(DATA.boundaries.map((one) => one.order))].join(", ");
+  const orders = [...new Set(STEMS.map((one) => one.order))].join(", ");
   panel(host, {
     name: "Boundaries by binning, with their posterior", height: 90,
     data: [[0, LAST], [null, null]], series: [{ points: { show: false } }],
     top: 1.1, unit: `boundaries by binning (order ${orders}), posterior`,
     marks: (u, ctx, to) => {
-      for (const one of DATA.boundaries) {
+      for (const one of STEMS) {
         const shift = (one.hand === "left" ? 1 : -1) * to.px;
         ctx.strokeStyle = ctx.fillStyle = css(`--${one.hand}`);
         ctx.lineWidth = 1.6 * to.px;

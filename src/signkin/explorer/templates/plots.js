@@ -108,7 +108,7 @@ function speedMarks(hand) {
     ctx.lineWidth = 1.5 * to.px;
     each(refinedTimes, to, (x, i) => {
       line(ctx, x, to.top + 8 * to.px, to.top + to.height);
-      triangle(ctx, x, to.top, 5 * to.px, REFINED[hand][i].status === "moved");
+      triangle(ctx, x, to.top, 5 * to.px, REFINED[hand][i].status === "m");
     });
   };
 }
