@@ -53,6 +53,7 @@ function drawStems(host) {
         const shift = (one.hand === "left" ? 1 : -1) * to.px;
         ctx.strokeStyle = ctx.fillStyle = css(`--${one.hand}`);
         ctx.lineWidth = 1.6 * to.px;
+        ctx.globalAlpha = crowded(one.times, to) ? 0.5 : 1;
         ctx.beginPath();
         each(one.times, to, (x, i) => {
           ctx.moveTo(x + shift, to.y(0));

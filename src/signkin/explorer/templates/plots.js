@@ -19,7 +19,7 @@ function panel(host, { name, height, data, series = [], top = 1, unit = "", mark
     scales: { x: { time: false, min: state.from, max: state.to, range: (u, a, b) => [a, b] },
               y: { range: [0, top] } },
     axes: [
-      { ...axis, show: !!last, size: last ? 30 : 0, values: (u, ticks) => ticks.map(tickText) },
+      { ...axis, show: !!last, size: last ? 30 : 0, incrs: STEPS_S, space: 60, values: (u, ticks) => ticks.map(tickText) },
       { ...axis, show: true, size: axisWidth, values: (u, v) => (series.length ? v : v.map(() => "")),
         grid: series.length ? axis.grid : { show: false },
         ticks: series.length ? axis.ticks : { show: false } },
@@ -39,6 +39,9 @@ function panel(host, { name, height, data, series = [], top = 1, unit = "", mark
   panels.push(plot);
   return plot;
 }
+
+// Between ticks, in s: parts of a second, then of a minute, then of an hour.
+const STEPS_S = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1200, 3600];
 
 const tickText = (value) => {
   if (LAST < 120) return String(+value.toFixed(3));
