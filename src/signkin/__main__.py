@@ -102,6 +102,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.child import run_child
     from signkin.errors import SignkinError
     from signkin.lock import held
+    from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
     from signkin.yaml_file import read_yaml
 
@@ -135,6 +136,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         status = run_child(command, folder, {**os.environ, **threads}, alone)
     page = folder / "results" / "report" / "index.html"
     if status == 0 and page.exists() and "--" not in extra:
+        write_times(folder / "logs", page.parent)
         print(f"The report: {page}")
     return status
 

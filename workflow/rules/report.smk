@@ -28,6 +28,7 @@ rule report:
         rules.endres2013.input,
         rules.naert2017_durations.input,
         rules.audit.input,
+        rules.explorers.input,
         overview=rules.overview.output,
         shared=collect(rules.gather.output, corpus=PLAN.corpora),
         synthesis=rules.syntheses.input,

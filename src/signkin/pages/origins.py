@@ -21,6 +21,7 @@ from signkin.report.page import Page, Section, TableView
 from signkin.tables import write_table
 
 PROVENANCE = "Provenance"
+RUNS = r"extra == .(workflow|cluster|c3d)."  # extras that a run uses; the others are for tests
 
 
 def origins_page(
@@ -68,6 +69,7 @@ def _packages() -> Iterator[tuple[str, str]]:
         wanted = distribution("signkin").requires or []
     except PackageNotFoundError:
         wanted = []
+    wanted = [text for text in wanted if "extra" not in text or re.search(RUNS, text)]
     names = {re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0] for requirement in wanted}
     for name in sorted(names, key=str.lower):
         try:

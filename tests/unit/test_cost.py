@@ -1,0 +1,28 @@
+"""Time and memory of jobs: noted beside their logs, told on a page of their own."""
+
+import json
+
+from signkin.cost import noted, read_costs
+from signkin.pages.times import write_times
+
+
+def test_what_a_job_costs_is_noted_even_where_it_fails(tmp_path):
+    for rule, about in (("ingest", "a 0001"), ("ingest", "b 0001"), ("report", "")):
+        with noted(tmp_path / "logs" / f"{rule}-{about}.log", rule, about):
+            sum(range(10_000))
+    try:
+        with noted(tmp_path / "logs/x.log", "x"):
+            raise ValueError
+    except ValueError:
+        pass
+    costs = read_costs(tmp_path / "logs")
+    assert [c["rule"] for c in costs] == ["ingest", "ingest", "report", "x"]
+    assert all(c["seconds"] >= 0 and c["peak_mb"] > 1 for c in costs)
+    (tmp_path / "report").mkdir()
+    page = write_times(tmp_path / "logs", tmp_path / "report").read_text(encoding="utf-8")
+    assert "4 jobs" in page and "a 0001" in page
+    assert json.loads((tmp_path / "logs/x.cost.json").read_text())["about"] == ""
+
+
+def test_without_a_run_there_is_no_page(tmp_path):
+    assert write_times(tmp_path / "logs", tmp_path / "report") is None
