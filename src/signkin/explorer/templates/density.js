@@ -53,9 +53,16 @@ function drawStems(host) {
         const shift = (one.hand === "left" ? 1 : -1) * to.px;
         ctx.strokeStyle = ctx.fillStyle = css(`--${one.hand}`);
         ctx.lineWidth = 1.6 * to.px;
+        ctx.globalAlpha = crowded(one.times, to) ? 0.5 : 1;
+        ctx.beginPath();
+        each(one.times, to, (x, i) => {
+          ctx.moveTo(x + shift, to.y(0));
+          ctx.lineTo(x + shift, to.y(one.values[i]));
+        });
+        ctx.stroke();
+        if (crowded(one.times, to)) continue;
         each(one.times, to, (x, i) => {
           const y = to.y(one.values[i]);
-          line(ctx, x + shift, to.y(0), y);
           if (one.hand === "left") ctx.fillRect(x + shift - 2 * to.px, y - 2 * to.px, 4 * to.px, 4 * to.px);
           else disc(ctx, x + shift, y, 2.4 * to.px);
         });
