@@ -74,9 +74,8 @@ def refuse_none(corpus: Corpus, excluded: Sequence[dict[str, Any]], left: int) -
     if not left:
         first = excluded[0]["reason"] if excluded else "there was none before"
         raise SignkinError(
-            f"no recording can be used; the first: {first}",
+            f"no recording can be used; the first: {str(first).rstrip('.')}",
             file=corpus.folder,
-            expected="one recording or more",
         )
 
 
