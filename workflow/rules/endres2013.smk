@@ -107,12 +107,18 @@ rule endres_figures:
 
 
 rule order_choices:
-    """What the paper does not print, varied: prior and bins (3.2)."""
+    """What the paper does not print, varied: prior and bins (3.2); Fig. 3 to 7 under two priors."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
+        binning=rules.endres_tables.output.binning,
+        trajectories=of_shards(rules.single_signs.output.trajectories),
     output:
         order_choices="<results>/endres2013/{corpus}/order_choices.csv",
+        readings="<results>/endres2013/{corpus}/readings.csv",
+        beside_svg="<results>/endres2013/{corpus}/fig_readings.svg",
+        beside_pdf="<results>/endres2013/{corpus}/fig_readings.pdf",
+        beside_caption="<results>/endres2013/{corpus}/readings.txt",
         svg="<results>/endres2013/{corpus}/fig_order_choices.svg",
         pdf="<results>/endres2013/{corpus}/fig_order_choices.pdf",
         caption="<results>/endres2013/{corpus}/order_choices.txt",

@@ -6,8 +6,11 @@ with job(snakemake):
     from signkin import tables
     from signkin.corpus import load_corpus
     from signkin.figures.style import paper_style, save
+    from signkin.studies.endres2013.figures import readings as beside
     from signkin.studies.endres2013.figures.open_choices import drawn
     from signkin.studies.endres2013.open_choices import chosen_recordings, order_choices
+    from signkin.studies.endres2013.readings import readings
+    from signkin.studies.endres2013.single_signs import read_trajectories
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
@@ -15,7 +18,15 @@ with job(snakemake):
     recordings = chosen_recordings(source.recordings, truth, settings.choices.recordings)
     table = order_choices(corpus, recordings, settings, snakemake.params.seed, snakemake.threads)
     tables.write_table(table, out.order_choices, "order_choices", corpus.unit)
+    both = readings(
+        corpus, read_trajectories(source.trajectories),
+        tables.read_table(source.binning, "binning"), settings, snakemake.threads,
+    )  # fmt: skip
+    tables.write_table(both, out.readings, "readings", corpus.unit)
     with paper_style():
-        figure = drawn(table)
-        save(figure.figure, out.svg, out.pdf)
-    Path(out.caption).write_text(figure.caption + "\n", encoding="utf-8")
+        for figure, svg, pdf, caption in (
+            (drawn(table), out.svg, out.pdf, out.caption),
+            (beside.drawn(corpus.name, both), out.beside_svg, out.beside_pdf, out.beside_caption),
+        ):
+            save(figure.figure, svg, pdf)
+            Path(caption).write_text(figure.caption + "\n", encoding="utf-8")
