@@ -107,7 +107,7 @@ rule endres_figures:
 
 
 rule order_choices:
-    """What the paper does not print, varied: prior and bins (3.2); Fig. 3 to 7 under two priors."""
+    """What the paper does not print: varied, under two priors, and learnt from the data (3.2)."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
@@ -115,6 +115,7 @@ rule order_choices:
         trajectories=of_shards(rules.single_signs.output.trajectories),
     output:
         order_choices="<results>/endres2013/{corpus}/order_choices.csv",
+        learnt_prior="<results>/endres2013/{corpus}/learnt_prior.csv",
         readings="<results>/endres2013/{corpus}/readings.csv",
         beside_svg="<results>/endres2013/{corpus}/fig_readings.svg",
         beside_pdf="<results>/endres2013/{corpus}/fig_readings.pdf",

@@ -133,9 +133,9 @@ class Posterior:
     def noise_misfit(self, order: int) -> float:
         """Return how far the data lie off the expected trajectory, in SDs of the prior's noise.
 
-        Those of `Prior.expected_noise`; the root of the mean square over bins and dimensions. About 1 where the noise fits; far
-        above, the polynomials do not follow the data or noise_sd is too small (a unit?); far
-        below, it is too large, and boundaries are lost.
+        Those of `Prior.expected_noise`; the root of the mean square over bins and dimensions.
+        About 1 where the noise fits; far above, the polynomials do not follow the data or
+        noise_sd is too small (a unit?); far below, it is too large, and boundaries are lost.
         """
         deviations = self.prior.expected_noise(self.x.shape[1])
         off = (self.x - self.expected_trajectory(order)) / deviations

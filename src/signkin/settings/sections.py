@@ -347,6 +347,9 @@ class EndresChoices(Section):
     """
 
     recordings: int = key(8, "On so many recordings of each corpus.", ge=1)
+    learnt_recordings: int = key(
+        24, "The prior is learnt on half of so many recordings, and the other half predicted.", ge=4
+    )
     orders: Orders = key((0, 1, 2, 3, 4, 5, 6, 7), "Polynomial orders S.")
     dof: Annotated[Degrees, Field(min_length=1)] = key((None, 5, 30, 1000), "As binning.prior.dof.")
     noise: Annotated[

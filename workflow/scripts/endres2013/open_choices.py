@@ -8,6 +8,7 @@ with job(snakemake):
     from signkin.figures.style import paper_style, save
     from signkin.studies.endres2013.figures import readings as beside
     from signkin.studies.endres2013.figures.open_choices import drawn
+    from signkin.studies.endres2013.learnt import learnt_priors
     from signkin.studies.endres2013.open_choices import chosen_recordings, order_choices
     from signkin.studies.endres2013.readings import readings
     from signkin.studies.endres2013.single_signs import read_trajectories
@@ -18,11 +19,12 @@ with job(snakemake):
     recordings = chosen_recordings(source.recordings, truth, settings.choices.recordings)
     table = order_choices(corpus, recordings, settings, snakemake.params.seed, snakemake.threads)
     tables.write_table(table, out.order_choices, "order_choices", corpus.unit)
-    both = readings(
-        corpus, read_trajectories(source.trajectories),
-        tables.read_table(source.binning, "binning"), settings, snakemake.threads,
-    )  # fmt: skip
+    cut = read_trajectories(source.trajectories)
+    binning = tables.read_table(source.binning, "binning")
+    both = readings(corpus, cut, binning, settings, snakemake.threads)
     tables.write_table(both, out.readings, "readings", corpus.unit)
+    learnt = learnt_priors(corpus, cut, settings, snakemake.threads)
+    tables.write_table(learnt, out.learnt_prior, "learnt_prior", corpus.unit)
     with paper_style():
         for figure, svg, pdf, caption in (
             (drawn(table), out.svg, out.pdf, out.caption),
