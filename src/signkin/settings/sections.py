@@ -377,6 +377,21 @@ class EndresChoices(Section):
     beside: Prior = Prior(noise="data", scale="literal", length_unit="mm")
 
 
+class IslSim(Section):
+    """The simulated corpus isl-sim: fields of signkin.simulate.isl.Recipe."""
+
+    order: Literal[3, 5, 7] = key(
+        5, "Order of its strokes: 3, 5 or 7, of least acceleration, jerk or snap."
+    )
+    parts: int = key(1, "How many strokes stand for one of the design.", ge=1, le=20)
+
+
+class Simulation(Section):
+    """How the simulated corpora are made."""
+
+    isl: IslSim = IslSim()
+
+
 class OpenChoices(Section):
     """Choices that the papers leave open, each varied: what the claims rest on."""
 
@@ -405,6 +420,7 @@ class Settings(Section):
         1000, "Recordings that share a job: the start-up of a job is about 2 s, a short recording "
         "takes 2 ms.", ge=1,
     )  # fmt: skip
+    simulation: Simulation = Simulation()
     kinematics: Kinematics = Kinematics()
     refinement: Refinement = Refinement()
     transitions: Transitions = Transitions()

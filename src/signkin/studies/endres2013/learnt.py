@@ -126,7 +126,7 @@ def _rows(
     try:
         found = learn_prior(train.x, orders, start, train.dt_s, workers=workers)
     except SignkinError as error:
-        yield {"prior": LEARNT, "note": str(error)}
+        yield {"prior": LEARNT, "note": "; ".join(n for n in (str(error), note) if n)}
         return
     row, predicted = outcome([[found.prior] * len(half.x) for half in (train, held)])
     assert reference is not None

@@ -11,6 +11,7 @@ import pandas as pd
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
 from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.studies.endres2013 import report_beside
 from signkin.tables import read_table
 
 ALL = "all"
@@ -78,6 +79,8 @@ def _single_signs(
         views.append(view)
         if view.svg.stem == "fig06":
             views += [_rates(folder, hit_window_s), _tests(folder)]
+        if view.svg.stem == "fig07":
+            views += report_beside.learnt(folder)
     views.append(
         FigureView(
             label="",
@@ -90,6 +93,8 @@ def _single_signs(
             ],
         )
     )
+    views += report_beside.two_priors(folder)
+    views += report_beside.doubts(folder)
     views += left_out(folder / "left_out.csv")
     views += _rejected(folder)
     return Section(
