@@ -235,12 +235,12 @@ def main(results: Path, data: Path) -> dict[str, str]:
         print(f"  {cell}: {', '.join(f'{c:.1f}' for c in one.counts)}, peak {one.peak}")
     right = sum(one.peak == cell.generator for cell, one in cells.items())
     print(f"\nThe preferred order is the generator's in {right} of {len(cells)} cells.")
-    return {"binning-map": of_peaks(cells), "binning-strokes": of_strokes(cells)}
+    return {"order_map-peaks": of_peaks(cells), "order_map-strokes": of_strokes(cells)}
 
 
 def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, worked out anew, to compare."""
     one = found(cut(recordings(5, 1, 0.8), 6.0, 100), 0.8, "sensor")
-    return "binning-strokes", (
+    return "order_map-strokes", (
         f"| jerk (5), 1, 6 Hz | {one.hit_rate:.2f} ({one.chance:.2f}), {one.false_per_s:.1f} |"
     )

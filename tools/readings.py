@@ -69,7 +69,7 @@ def of_readings(found: Mapping[str, Mapping[Reading, Outcome]]) -> str:
 def main(results: Path, data: Path) -> dict[str, str]:
     """Print every table; returns that of the page."""
     there = {name: of for name in SINGLE if (of := takes(name, results, data)) is not None}
-    return {"binning-literal": of_readings({name: literal(of) for name, of in there.items()})}
+    return {"readings-literal": of_readings({name: literal(of) for name, of in there.items()})}
 
 
 def sample(results: Path) -> tuple[str, str]:
@@ -79,7 +79,7 @@ def sample(results: Path) -> tuple[str, str]:
     changes = {"prior.noise": "data", "prior.scale": "literal", "prior.length_unit": "mm",
                "prior.dof": 3.0}  # fmt: skip
     one = outcome(of, with_binning(shipped(), changes), VARIANTS[SHIPPED])
-    return "binning-literal", (
+    return "readings-literal", (
         f"| mm, nu = 3 | {one.m()}; {one.peak}, {one.middle}; {one.truths_peak} "
         f"({truths_share(one)}) |"
     )
