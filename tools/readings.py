@@ -2,8 +2,7 @@
 
 python -m tools.numbers RESULTS DATA readings
 
-40 recordings of each corpus, evenly spread; b = 0.1, T = 100, time in bins; nothing taken off the
-noise of fitted trajectories (the variances are their own).
+40 recordings of each corpus, evenly spread; b = 0.1, T = 100, time in bins.
 """
 
 from __future__ import annotations
@@ -11,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from signkin.studies.endres2013.posteriors import FITTED, FITTED_MAP
-from tools.binning import SINGLE, VARIANTS, Takes, outcome, recovered, takes, with_binning
+from tools.binning import SINGLE, VARIANTS, Takes, outcome, takes, with_binning
 from tools.binning_tables import SHIPPED, Outcome
 from tools.numbers import table
 from tools.shipped import shipped
@@ -24,28 +22,30 @@ Reading = tuple[str, float]
 
 def literal(of: Takes) -> dict[Reading, Outcome]:
     """Print what the literal reading does to a corpus, by unit of length and nu; returns it."""
-    settings = shipped()
     print(f"\n### {of.corpus.name}: V = the data's variances; recorded and ground truth\n")
     print("| unit, nu | M at 0, 3, 7 | peak | P(3-5) | truth's peak | its P | order 3: hit rate, "
-          "false pos./s | refound order 3, averaged | the most probable |")  # fmt: skip
-    print("|---" * 9 + "|")
+          "false pos./s |")  # fmt: skip
+    print("|---" * 7 + "|")
     out = {}
     for unit in UNITS:
         for dof in DEGREES:
-            changes = {
-                "prior.noise": "data", "prior.scale": "literal", "prior.length_unit": unit,
-                "prior.dof": dof, "recovery_noise": 1.0,
-            }  # fmt: skip
-            own = with_binning(settings, changes)
-            one = out[unit, dof] = outcome(of, own, VARIANTS[SHIPPED])
-            again = [recovered(of, own, kind, (3,))[0] for kind in (FITTED, FITTED_MAP)]
+            one = out[unit, dof] = under(of, unit, dof)
             print(
                 f"| {unit}, {dof:g} | {one.m()} | {one.peak} ({one.posterior.max():.2f}) "
                 f"| {one.middle} | {one.truths_peak} | {truths_share(one)} | {one.rates} "
-                f"(n = {one.truths}) | {again[0]} | {again[1]} |",
+                f"(n = {one.truths}) |",
                 flush=True,
             )
     return out
+
+
+def under(of: Takes, unit: str, dof: float) -> Outcome:
+    """Bin a corpus with the data's variances as V, in a unit of length."""
+    changes = {
+        "prior.noise": "data", "prior.scale": "literal", "prior.length_unit": unit,
+        "prior.dof": dof,
+    }  # fmt: skip
+    return outcome(of, with_binning(shipped(), changes), VARIANTS[SHIPPED])
 
 
 def truths_share(of: Outcome) -> str:
@@ -76,9 +76,7 @@ def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, from simulated recordings, to compare."""
     of = takes("isl-sim", results, results)
     assert of is not None
-    changes = {"prior.noise": "data", "prior.scale": "literal", "prior.length_unit": "mm",
-               "prior.dof": 3.0}  # fmt: skip
-    one = outcome(of, with_binning(shipped(), changes), VARIANTS[SHIPPED])
+    one = under(of, UNITS[0], DEGREES[0])
     return "readings-literal", (
         f"| mm, nu = 3 | {one.m()}; {one.peak}, {one.middle}; {one.truths_peak} "
         f"({truths_share(one)}) |"
