@@ -17,6 +17,7 @@ include: "workflow/rules/kernels.smk"
 include: "workflow/rules/naert2017.smk"
 include: "workflow/rules/one_wrist.smk"
 include: "workflow/rules/endres2013.smk"
+include: "workflow/rules/explorer.smk"
 include: "workflow/rules/audit.smk"
 include: "workflow/rules/report.smk"
 
@@ -31,3 +32,4 @@ rule all:
         rules.endres2013.input,
         rules.naert2017_durations.input,
         rules.audit.input,
+        rules.explorers.input,

@@ -15,7 +15,8 @@ PLACE = "flow"
 OPEN = ("studies",)
 PARTS = (
     "io", "kinematics", "coarticulation", "powerlaw", "binning", "simulate", "statistics",
-    "figures", "report", "audit", "stages", "studies", "pages", "corpus", "survey", "segments",
+    "figures", "report", "audit", "stages", "studies", "pages", "explorer", "corpus", "survey",
+    "segments",
 )  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 
 `signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
 utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
-at corpora before a run, `signkin score` compares two segmentations.
+at corpora before a run, `signkin score` compares two segmentations, `signkin compare` two trees of
+results, `signkin verify` tells what in results/ is not what the run wrote.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from shlex import quote
 
+from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
 
@@ -39,13 +41,18 @@ def main(arguments: list[str] | None = None) -> int:
     commands.add_parser("audit", help="check the claims of a paper; `audit list`, `check`, `init`")
     add_parser(commands)
     segments.add_parser(commands)
+    results.add_parsers(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
     if for_snakemake:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
-    if told.command == "score":
-        return segments.run_score(told)
+    others = {
+        "score": segments.run_score, "compare": results.run_compare,
+        "verify": results.run_verify,
+    }  # fmt: skip
+    if told.command in others:
+        return others[told.command](told)
     return run_corpus(told) if told.command == "corpus" else say(told)
 
 
@@ -95,6 +102,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.child import run_child
     from signkin.errors import SignkinError
     from signkin.lock import held
+    from signkin.results.written import STATE, take_out_changed
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -117,6 +125,8 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         if alone is None:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
+        for path in take_out_changed(folder / STATE, folder):
+            print(f"signkin: {path} is not what its job wrote; it is made anew.", file=sys.stderr)
         forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]

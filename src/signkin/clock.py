@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from signkin.errors import SignkinError
 
@@ -156,6 +156,6 @@ def resample(
         whole = known[left + 1] - known[left] == 1
         on_sample = np.minimum(np.abs(even - at[left]), np.abs(even - at[left + 1])) <= eps
         use = inside & ((near & whole) | on_sample)
-        curve = PchipInterpolator(at, flat[known][:, columns])
+        curve = scipy.interpolate.PchipInterpolator(at, flat[known][:, columns])
         out[np.ix_(use, columns)] = curve(np.clip(even[use], at[0], at[-1]))
     return even, out.reshape(len(even), *np.shape(values)[1:])

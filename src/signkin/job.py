@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from signkin.errors import SignkinError
+from signkin.results.written import record
 
 
 @contextmanager
@@ -31,6 +32,7 @@ def job(snakemake: Any) -> Iterator[None]:
         warnings.simplefilter("default")
         try:
             yield
+            record(snakemake.output)
         except SignkinError as error:
             print(f"signkin: {error}", file=log)
             print(f"\nsignkin: {error}\n", file=terminal)

@@ -6,8 +6,9 @@ A corpus maps its own names to these in corpus.yaml. Sided names start with
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 HANDS = ("right", "left")
 
@@ -45,6 +46,35 @@ def arm_joints(joints: Iterable[str], hand: str) -> list[str]:
     """Return the joints of one arm, shoulder to fingertips (Naert et al. 2017, section 5.1)."""
     sided = ((joint, *split(joint)) for joint in joints)
     return [joint for joint, side, part in sided if side == hand and is_arm_part(part)]
+
+
+_TRUNK = ("pelvis", "spine", "spine_1", "spine_2", "spine_3", "chest", "neck", "neck_1", "head",
+          "head_top")  # fmt: skip
+
+
+def bones(joints: Sequence[str]) -> list[tuple[int, int]]:
+    """Return the pairs of joints that a stick figure joins by a line."""
+    place = {joint: i for i, joint in enumerate(joints)}
+    names: list[tuple[str, str]] = []
+    trunk = [joint for joint in _TRUNK if joint in place]
+    names += list(itertools.pairwise(trunk))
+    top = next((j for j in ("chest", "spine_3", "spine_2", "neck") if j in place), None)
+    for hand in HANDS:
+        arm = [f"{hand}_{part}" for part in ("clavicle", "shoulder", "elbow", "wrist")]
+        arm = [joint for joint in arm if joint in place]
+        if top is not None and arm and not arm[0].endswith("wrist"):
+            arm = [top, *arm]
+        names += list(itertools.pairwise(arm))
+        names.append((f"{hand}_shoulder", f"{hand}_hip"))
+        for finger in FINGERS:
+            chain = [f"{hand}_wrist"]
+            chain += [f"{hand}_{finger}_{n}" for n in ("1", "2", "3", "4", "tip")]
+            chain = [joint for joint in chain if joint in place]
+            names += list(itertools.pairwise(chain))
+    if top is None:
+        names.append(("right_shoulder", "left_shoulder"))
+    names.append(("right_hip", "left_hip"))
+    return [(place[a], place[b]) for a, b in names if a in place and b in place]
 
 
 def vocabulary() -> str:

@@ -9,9 +9,12 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import subprocess
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+
+from signkin.checkout import checkout
 
 PACKAGE = Path(__file__).resolve().parent
 
@@ -73,3 +76,18 @@ def _with_data_files(modules: set[Path]) -> set[Path]:
     packages = {m.parent for m in modules if m.name == "__init__.py" and m.parent != PACKAGE}
     data = (p for package in packages for p in package.rglob("*") if p.is_file())
     return modules | {p for p in data if p.suffix != ".py" and "__pycache__" not in p.parts}
+
+
+def commit() -> str:
+    """Return the commit of the checkout; '' where there is none, or no git."""
+    folder = checkout()
+    if folder is None:
+        return ""
+    try:
+        found = subprocess.run(
+            ["git", "-C", str(folder), "rev-parse", "HEAD"], capture_output=True, text=True,
+            check=False, timeout=20,
+        )  # fmt: skip
+    except OSError:  # no git on this machine
+        return ""
+    return found.stdout.strip() if found.returncode == 0 else ""

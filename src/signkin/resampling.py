@@ -14,8 +14,8 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 
 from signkin.errors import SignkinError
 
@@ -186,7 +186,11 @@ def _spread(
         means = np.where(total[:, None] > 0, means / np.maximum(total, 1e-300)[:, None], np.nan)
     least = min(int(c.max()) + 1 for c in codes.values())
     half = (1 + level) / 2
-    factor = np.sqrt(least / (least - 1)) * stats.t.ppf(half, least - 1) / stats.norm.ppf(half)
+    factor = (
+        np.sqrt(least / (least - 1))
+        * scipy.stats.t.ppf(half, least - 1)
+        / scipy.stats.norm.ppf(half)
+    )
     return np.asarray(centre + factor * means)
 
 

@@ -1,4 +1,4 @@
-"""A headless Chromium of the machine, and the page of a run."""
+"""A headless Chromium of the machine, and the pages of a run."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Browser, sync_playwright
+
+from support.browsing import open_page
 
 ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -28,3 +30,23 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="session")
 def report(simulated_run):
     return simulated_run.results / "report/index.html"
+
+
+@pytest.fixture(scope="session")
+def home(report):
+    """Folder of the report's pages."""
+    return report.parent
+
+
+@pytest.fixture
+def opened(browser):
+    """A function that opens the file of a page, closed after the test."""
+    pages = []
+
+    def go(file, **options):
+        pages.append(open_page(browser, file, **options))
+        return pages[-1]
+
+    yield go
+    for page in pages:
+        page.close()

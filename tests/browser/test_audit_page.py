@@ -51,6 +51,7 @@ def test_its_figures_are_drawn(audit_page):
     images = audit_page.locator("img")
     assert images.count() >= 5
     for image in images.all():
+        image.scroll_into_view_if_needed()
         assert image.evaluate("e => e.naturalWidth") > 300
 
 

@@ -40,6 +40,7 @@ def environment(data: Path | None) -> dict[str, str]:
 
 # The same rules on less: fewer settings, draws and fitted recordings than the shipped ones.
 QUICK = {
+    "report": {"explorer_recordings": 4},
     "binning": {"fitted_recordings": 6, "bootstrap_draws": 200, "chance_trajectories": 400},
     "open_choices": {
         "endres2013": {
@@ -76,9 +77,13 @@ def prepare(folder: Path, **changes: object) -> Path:
 
 
 def run(folder: Path, *extra: str, data: Path | None = None) -> Run:
+    return signkin("run", *extra, folder=folder, data=data)
+
+
+def signkin(*words: str, folder: Path, data: Path | None = None) -> Run:
     done = subprocess.run(
-        command(*extra), cwd=folder, env=environment(data), text=True, timeout=600,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+        [sys.executable, "-m", "signkin", *words], cwd=folder, env=environment(data), text=True,
+        timeout=600, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
     )  # fmt: skip
     return Run(folder, done.returncode, done.stdout)
 

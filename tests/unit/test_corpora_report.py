@@ -18,13 +18,6 @@ def test_the_design_is_counted():
     assert corpora_report.design(full.iloc[4:]).endswith("; 1 signs of a signer are lacking.")
 
 
-def test_thousands_of_recordings_do_not_fill_the_page():
-    many = pd.DataFrame({"recording": range(2565)})
-    shown, told = corpora_report.first_rows(many)
-    assert (len(shown), told) == (300, " The page has the first 300 rows, the file all 2565.")
-    assert corpora_report.first_rows(many.head(300))[1] == ""
-
-
 def test_panels_are_spread_from_the_first_recording_to_the_last():
     names = [f"r{i}" for i in range(2565)]
     assert spread(names, 4) == ["r0", "r855", "r1709", "r2564"]

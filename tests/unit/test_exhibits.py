@@ -92,7 +92,7 @@ def test_figures_are_written_by_their_names_not_by_their_order(listing, tmp_path
     found = listing(ENTRY, changed(id="fig07", label="Figure 7"))
     frames = {}
     for stem, n in (("fig07", 7), ("fig10", 10)):
-        values = ["sim", "1H to 1H", n, 0.2, 0.1, n, 0.2]
+        values = ["sim", "mean", "1H to 1H", None, n, 0.2, 0.1, n, 0.2]
         frames[stem] = pd.DataFrame([values], columns=tables.TABLES["fig10"].names())
     drawn = {stem: Drawn(plt.figure(), frame, f"of {stem}") for stem, frame in frames.items()}
     out = tmp_path / "out"

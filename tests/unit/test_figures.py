@@ -13,14 +13,13 @@ from matplotlib.patches import FancyBboxPatch
 from signkin.figures import overview, specification
 from signkin.figures.style import RIGHT, paper_style, save
 from signkin.pages.overview import layout, parse_rule_graph, rule_notes, stage_order
+from signkin.report.cells import cell
+from signkin.report.images import data_uri, lighter
 from signkin.report.page import (
     FigureView,
     Page,
     Section,
     TableView,
-    cell,
-    data_uri,
-    lighter,
     render,
 )
 
@@ -180,7 +179,7 @@ def test_the_page_escapes_folds_and_embeds(tmp_path):
     html = render(Page("P", ("lead",), (section,), "0"), tmp_path / "report")
     assert "&lt;b&gt;" in html
     assert "X &amp; Y" in html
-    assert "1 more row<" in html
+    assert 'class="more">[["z"]]</script>' in html
     assert "data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg'/>" in html
     assert 'href="../f.pdf"' in html
     assert "no evidence about people" in html

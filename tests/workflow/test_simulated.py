@@ -16,7 +16,7 @@ from signkin.coarticulation.transitions import utterance_names
 from signkin.exhibits import exhibits
 from signkin.statistics import descriptive
 from signkin.studies.naert2017.transitions import counted
-from support.runs import checked, command, environment, prepare, run
+from support.runs import checked, command, environment, prepare, run, signkin
 
 
 def table(done, name, kind=None):
@@ -117,7 +117,8 @@ def test_what_is_missing_is_said(simulated_run):
     page = (simulated_run.results / "report/index.html").read_text(encoding="utf-8")
     for corpus in ("dgs-1984189", "boston104", "libras"):
         assert f"{corpus} is not in this run: no folder of real recordings is set" in page
-    assert "SIMULATED" in page
+    own = (simulated_run.results / "report/corpora/lsf-sim.html").read_text(encoding="utf-8")
+    assert "SIMULATED" in own
     assert not re.search(r">\s*nan\s*<", page, flags=re.IGNORECASE)
 
 
@@ -171,6 +172,25 @@ def files_of(folder):
         for path in sorted(folder.rglob("*"))
         if path.is_file()
     }
+
+
+def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
+    results = own_copy.results
+    cut, flipped = results / "lsf-sim/shards/0001/intervals.csv", results / "lsf-sim/recordings"
+    flipped = next(flipped.glob("*.parquet"))
+    gone = results / "naert2017/lsf-sim/table2.csv"
+    cut.write_text(cut.read_text().splitlines()[0] + "\n")
+    flipped.write_bytes(flipped.read_bytes()[:-200] + b"?" + flipped.read_bytes()[-199:])
+    gone.unlink()
+    told = signkin("verify", folder=own_copy.folder)
+    assert told.status == 1
+    for path, what in ((cut, "changed"), (flipped, "changed"), (gone, "missing")):
+        assert f"{path.relative_to(own_copy.folder)}: {what}" in told.text
+    again = checked(run(own_copy.folder))
+    assert f"{cut.relative_to(own_copy.folder)} is not what its job wrote" in again.text
+    compared = signkin("compare", str(simulated_run.results), "results", folder=own_copy.folder)
+    assert compared.text.startswith("No difference beyond 1e-09"), compared.text
+    assert signkin("verify", folder=own_copy.folder).status == 0
 
 
 def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_path):

@@ -1,4 +1,5 @@
-# The overview of the workflow and the page that shows everything.
+# The overview of the workflow and the pages that show everything.
+from signkin.provenance import commit
 
 
 rule overview:
@@ -21,7 +22,7 @@ rule overview:
 
 
 rule report:
-    """The page you are reading."""
+    """The pages you are reading."""
     input:
         rules.naert2017.input,
         rules.endres2013.input,
@@ -38,13 +39,20 @@ rule report:
         ],
         descriptions=[PLAN.description(corpus) for corpus in PLAN.corpora],
     output:
-        page="<results>/report/index.html",
+        front="<results>/report/index.html",
+        pages=[f"<results>/report/{name}.html" for name in ("methods", "provenance")],
+        data_files="<results>/report/data_files.csv",
+        corpora=directory("<results>/report/corpora"),
+        papers=directory("<results>/report/papers"),
+        images=directory("<results>/report/images"),
     log:
         "<logs>/report.log",
     params:
-        code=PLAN.digest("pages/run.py"),
+        code=PLAN.digest("pages/report.py"),
+        commit=commit(),
+        folders={name: str(folder) for name, folder in PLAN.folders.items()},
         corpora={name: str(corpus.folder) for name, corpus in PLAN.corpora.items()},
         missing=dict(PLAN.missing),
         settings=SETTINGS.model_copy(update={"data_dir": None}),
     script:
-        "../scripts/pages/run.py"
+        "../scripts/pages/report.py"

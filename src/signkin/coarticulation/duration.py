@@ -13,8 +13,8 @@ from dataclasses import dataclass, field, fields
 from typing import Self
 
 import numpy as np
+import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
-from scipy import stats
 
 from signkin.errors import SignkinError
 
@@ -201,7 +201,7 @@ class LinearDuration(DurationModel):
                 place="LINEAR",
                 expected="distances that do not cancel each other",
             )
-        line = stats.linregress(x, y)
+        line = scipy.stats.linregress(x, y)
         self.theta = np.array([line.intercept, line.slope])
         self.standard_error = np.array([line.intercept_stderr, line.stderr])
         self.n = len(y)
@@ -263,7 +263,7 @@ class SurfaceDuration(DurationModel):
 
     def interval(self, level: float = 0.95) -> Array:
         """Return the confidence interval of each coefficient, (3, 2), by Student's t."""
-        half = stats.t.ppf(0.5 + level / 2, self.n - 3) * self.standard_error
+        half = scipy.stats.t.ppf(0.5 + level / 2, self.n - 3) * self.standard_error
         return np.column_stack([self.theta - half, self.theta + half])
 
     def predict(self, transitions: Transitions) -> Array:

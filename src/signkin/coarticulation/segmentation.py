@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
+import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 
 from signkin.annotation import Interval
 from signkin.errors import SignkinError
@@ -322,14 +322,14 @@ def _share_interval(distance: NDArray[np.float64], reach: float) -> dict[str, fl
 def _binomial(k: int, n: int) -> dict[str, float]:
     if not n:
         return {"low": np.nan, "high": np.nan}
-    found = stats.binomtest(k, n).proportion_ci(0.95, method="exact")
+    found = scipy.stats.binomtest(k, n).proportion_ci(0.95, method="exact")
     return {"low": float(found.low), "high": float(found.high)}
 
 
 def _median_interval(values: NDArray[np.float64]) -> dict[str, float]:
     """Return the interval of the median between two order statistics, 95 % or more."""
     finite = np.sort(values[np.isfinite(values)])
-    below = int(stats.binom.ppf(0.025, len(finite), 0.5)) if len(finite) > 5 else 0
+    below = int(scipy.stats.binom.ppf(0.025, len(finite), 0.5)) if len(finite) > 5 else 0
     if below < 1:
         return {"low": np.nan, "high": np.nan}
     return {"low": float(finite[below - 1]), "high": float(finite[len(finite) - below])}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-import seaborn as sns
 from matplotlib.axes import Axes
 
 from signkin.figures.style import ACCENT, NEUTRAL, PALE
@@ -15,6 +14,8 @@ def plot_hand_changes(groups: pd.DataFrame, durations: pd.DataFrame, *, ax: Axes
 
     groups: rows of the table `fig10`. durations: columns change, duration_s.
     """
+    import seaborn as sns  # takes as long to import as numba: only where bars are drawn
+
     order = list(groups["change"])
     sns.barplot(data=groups, x="change", y="mean_s", order=order, color=PALE, width=0.62, ax=ax)
     shown = durations[durations["change"].isin(order)]

@@ -9,7 +9,6 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
-import seaborn as sns
 from matplotlib.figure import Figure
 
 # As in the papers: the right hand blue, the left one red, the annotator green.
@@ -31,6 +30,7 @@ ORDER_COLOURS = {0: LEFT, 3: RIGHT, 6: TEAL}
 SEGMENT_COLOURS = (RIGHT, ACCENT, MANUAL, VIOLET, NEUTRAL)
 SETTING_COLOURS = (RIGHT, MANUAL, ACCENT, LEFT)
 
+STYLE = Path(__file__).with_name("paper.mplstyle")
 PLACES = 6  # decimals of a place in a figure
 WIDTH_IN = 6.9  # a text column of 175 mm
 SPEED_UNITS = {"m": "m/s", "px": "px/s"}
@@ -39,23 +39,7 @@ SPEED_UNITS = {"m": "m/s", "px": "px/s"}
 @contextmanager
 def paper_style() -> Iterator[None]:
     """Set fonts, lines and reproducible SVG identifiers for the figures drawn inside."""
-    settings = {
-        "svg.hashsalt": "signkin",
-        "pdf.fonttype": 42,
-        "savefig.dpi": 250,  # of what is rasterized: clouds of points, nothing else
-        "font.family": "DejaVu Sans",
-        "font.size": 8.5,
-        "axes.titlesize": 9,
-        "axes.labelsize": 8.5,
-        "legend.fontsize": 7.5,
-        "xtick.labelsize": 8,
-        "ytick.labelsize": 8,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "legend.frameon": False,
-        "figure.constrained_layout.use": True,
-    }
-    with sns.axes_style("ticks"), mpl.rc_context(settings):
+    with mpl.rc_context(fname=STYLE):
         yield
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from signkin.errors import SignkinError
 from signkin.io.text import quoted
@@ -39,12 +39,14 @@ def _axis(text: str, key: str) -> NDArray[np.float64]:
 
 def turned(orientations: NDArray[np.float64], basis: NDArray[np.float64]) -> NDArray[np.float64]:
     """Express rotations of world space in turned axes: R q R^-1."""
-    turn = Rotation.from_matrix(basis)
+    turn = scipy.spatial.transform.Rotation.from_matrix(basis)
     flat = orientations.reshape(-1, 4)
     out = np.full_like(flat, np.nan)
     there = ~np.isnan(flat).any(axis=1)
     if there.any():
-        out[there] = (turn * Rotation.from_quat(flat[there]) * turn.inv()).as_quat()
+        out[there] = (
+            turn * scipy.spatial.transform.Rotation.from_quat(flat[there]) * turn.inv()
+        ).as_quat()
     return continuous(out.reshape(orientations.shape))
 
 

@@ -19,15 +19,19 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from signkin.errors import SignkinError
 from signkin.io.bvh_text import Hierarchy, parse, parse_bvh
 from signkin.io.registry import SourceMotion, motion_reader, pick
 from signkin.io.text import quoted
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 __all__ = [
     "Hierarchy",
@@ -119,9 +123,11 @@ def forward_kinematics(
         angles = block[:, turning]
         lost = np.asarray(np.isnan(angles).any(axis=1))
         local = (
-            Rotation.from_euler(order, np.where(lost[:, None], 0.0, angles), degrees=True)
+            scipy.spatial.transform.Rotation.from_euler(
+                order, np.where(lost[:, None], 0.0, angles), degrees=True
+            )
             if turning
-            else Rotation.identity(frames)
+            else scipy.spatial.transform.Rotation.identity(frames)
         )
         if parent >= 0:
             lost = np.asarray(lost | lost_turns[parent])
@@ -158,9 +164,12 @@ def channel_values(
         channels = hierarchy.channels[joint]
         if not channels:
             continue
-        turn, shift = Rotation.from_quat(orientations[:, joint]), positions[:, joint]
+        turn, shift = (
+            scipy.spatial.transform.Rotation.from_quat(orientations[:, joint]),
+            positions[:, joint],
+        )
         if parent >= 0:
-            above = Rotation.from_quat(orientations[:, parent])
+            above = scipy.spatial.transform.Rotation.from_quat(orientations[:, parent])
             turn = above.inv() * turn
             shift = above.inv().apply(shift - positions[:, parent])
         order = "".join(name[0] for name in channels if name.endswith("rotation"))

@@ -12,9 +12,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import scipy  # loads scipy.signal when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.signal import butter, firwin, freqz, sosfiltfilt
 
 from signkin.errors import SignkinError, listed
 from signkin.kinematics.gaps import stretches
@@ -62,7 +61,7 @@ def lowpass(
                 # cut-offs); shorter for pieces that are.
                 pad = min(int(np.ceil(3 * rate_hz / cutoff_hz)), len(piece) - 1)
                 sos = _sections(order, cutoff_hz, rate_hz)
-                filtered = sosfiltfilt(sos, piece, axis=0, padlen=pad)
+                filtered = scipy.signal.sosfiltfilt(sos, piece, axis=0, padlen=pad)
             out[first:end, columns] = filtered
     return out.reshape(np.shape(x))
 
@@ -76,7 +75,7 @@ def _alike(there: NDArray[np.bool_]) -> list[list[int]]:
 
 @lru_cache(maxsize=64)
 def _sections(order: int, cutoff_hz: float, rate_hz: float) -> NDArray[np.float64]:
-    return np.asarray(butter(order, cutoff_hz, fs=rate_hz, output="sos"))
+    return np.asarray(scipy.signal.butter(order, cutoff_hz, fs=rate_hz, output="sos"))
 
 
 @lru_cache(maxsize=64)
@@ -111,7 +110,7 @@ def fir_taps(
     n_taps = 2 * round((length_s * rate_hz - 1) / 2) + 1
 
     def gain_error(design_hz: float) -> float:
-        return _gain(firwin(n_taps, design_hz, fs=rate_hz), cutoff_hz, rate_hz) - 0.5
+        return _gain(scipy.signal.firwin(n_taps, design_hz, fs=rate_hz), cutoff_hz, rate_hz) - 0.5
 
     low, high = 1e-3 * cutoff_hz, 0.499 * rate_hz
     if gain_error(low) > 0:
@@ -120,11 +119,13 @@ def fir_taps(
             place="lowpass.cutoff_hz",
             expected="a higher cut-off, or the Butterworth filter",
         )
-    return np.asarray(firwin(n_taps, brentq(gain_error, low, high), fs=rate_hz))
+    return np.asarray(
+        scipy.signal.firwin(n_taps, scipy.optimize.brentq(gain_error, low, high), fs=rate_hz)
+    )
 
 
 def _gain(taps: NDArray[np.float64], frequency_hz: float, rate_hz: float) -> float:
-    return float(np.abs(freqz(taps, worN=[frequency_hz], fs=rate_hz)[1][0]))
+    return float(np.abs(scipy.signal.freqz(taps, worN=[frequency_hz], fs=rate_hz)[1][0]))
 
 
 def response_db(
@@ -136,8 +137,10 @@ def response_db(
 ) -> NDArray[np.float64]:
     """Return the gain in dB that `lowpass` applies at each frequency."""
     if method == "fir":
-        gain = np.abs(freqz(fir_taps(rate_hz, cutoff_hz), worN=frequencies_hz, fs=rate_hz)[1])
+        gain = np.abs(
+            scipy.signal.freqz(fir_taps(rate_hz, cutoff_hz), worN=frequencies_hz, fs=rate_hz)[1]
+        )
     else:
-        b, a = butter(order, cutoff_hz, fs=rate_hz)
-        gain = np.abs(freqz(b, a, worN=frequencies_hz, fs=rate_hz)[1]) ** 2
+        b, a = scipy.signal.butter(order, cutoff_hz, fs=rate_hz)
+        gain = np.abs(scipy.signal.freqz(b, a, worN=frequencies_hz, fs=rate_hz)[1]) ** 2
     return np.asarray(20 * np.log10(np.maximum(gain, 1e-300)))

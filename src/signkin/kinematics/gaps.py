@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from signkin.errors import SignkinError
 from signkin.recording import Recording
@@ -41,7 +41,7 @@ def fill_gaps(
     out = track.copy()
     if filled.any():
         frames = np.arange(len(track))
-        out[filled] = PchipInterpolator(frames[~gap], track[~gap])(frames[filled])
+        out[filled] = scipy.interpolate.PchipInterpolator(frames[~gap], track[~gap])(frames[filled])
     out[gap & ~filled] = np.nan
     return out, filled
 

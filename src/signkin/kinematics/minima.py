@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy  # loads scipy.signal when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
-from scipy.signal import find_peaks
 
 from signkin.kinematics.gaps import stretches
 
@@ -29,7 +29,7 @@ def minima_with_depth(
     frames, depths = [], []
     distance = max(1, int(np.ceil(spacing_s * rate_hz - 1e-9)))
     for first, end in stretches(~np.isnan(speed)):
-        peaks, properties = find_peaks(
+        peaks, properties = scipy.signal.find_peaks(
             -speed[first:end], prominence=max(prominence, 0.0), distance=distance
         )
         frames.append(first + peaks)

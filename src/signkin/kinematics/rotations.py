@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from signkin.errors import SignkinError
 from signkin.recording import Recording
@@ -32,8 +32,10 @@ def parent_relative(recording: Recording) -> NDArray[np.float64]:
         if parent < 0:
             continue
         there = ~np.isnan(recording.orientations[:, (joint, parent)]).any(axis=(1, 2))
-        of_parent = Rotation.from_quat(recording.orientations[there, parent])
-        of_joint = Rotation.from_quat(recording.orientations[there, joint])
+        of_parent = scipy.spatial.transform.Rotation.from_quat(
+            recording.orientations[there, parent]
+        )
+        of_joint = scipy.spatial.transform.Rotation.from_quat(recording.orientations[there, joint])
         out[:, joint] = np.nan
         out[there, joint] = (of_parent.inv() * of_joint).as_quat()
     return out
@@ -94,7 +96,7 @@ def frame_of(along: NDArray[np.float64], beside: NDArray[np.float64]) -> NDArray
     matrices = np.stack([x, np.cross(z, x), z], axis=2)
     out = np.full((len(along), 4), np.nan)
     if there.any():
-        out[there] = Rotation.from_matrix(matrices[there]).as_quat()
+        out[there] = scipy.spatial.transform.Rotation.from_matrix(matrices[there]).as_quat()
     return out
 
 

@@ -49,31 +49,12 @@ def audit_page(
         ),
         sections=sections,
         version=signkin.__version__,
-    )
-
-
-def audit_section(results: Path) -> Section:
-    """Return what the main report tells of the audit."""
-    audit = results / "audit"
-    claims = read_table(audit / "claims.csv", "claims")
-    bad = claims[(claims["evidence"] == PRINT) & (claims["verdict"] == "inconsistent")]
-    text = [
-        f"{claims['id'].nunique()} claims of {claims['paper'].nunique()} papers, each on the "
-        "printed numbers and on every corpus. On printed numbers a claim is consistent (it can be "
-        "right) or inconsistent; on a corpus it holds or fails, is undecided where the data allow "
-        "both, depends on what is not printed, or is so by construction.",
-    ]
-    text += [
-        f"Inconsistent on the paper's own numbers: {row.id} ({row.location}), that "
-        f"“{row.claim.rstrip('.')}”: {row.note}."
-        for row in bad.itertuples()
-    ]
-    return Section(
-        "audit",
-        "The audit of the claims",
-        text=text,
-        exhibits=(_counts(claims, audit / "claims.csv"),),
-        links=(("All claims, their checks and what they rest on", audit / "index.html"),),
+        site=(
+            ("Front page", folder.parent / "report" / "index.html"),
+            ("Audit", folder / "index.html"),
+        ),
+        here="Audit",
+        docs=docs if (docs := folder.parents[1] / "docs").is_dir() else None,
     )
 
 

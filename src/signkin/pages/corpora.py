@@ -1,4 +1,4 @@
-"""What the report says of corpora that have no section of their own."""
+"""What the report says of a corpus: what it is, and how it was designed."""
 
 from __future__ import annotations
 
@@ -6,27 +6,12 @@ import pandas as pd
 
 from signkin.corpus import Corpus
 
-MOST_ROWS = 300  # of a table of recordings in the page; the file has all
-
 
 def sign_columns(corpus: Corpus) -> dict[str, tuple[str, str]]:
     """Return the columns of a table of recordings that tell its signs."""
     if corpus.single_signs:
         return {"sign": ("sign", ""), "repetition": ("repetition", "d")}
     return {"signs": ("signs", "d")}
-
-
-def first_rows(frame: pd.DataFrame) -> tuple[pd.DataFrame, str]:
-    """Return the rows that the page has, and what its caption says of the others."""
-    if len(frame) <= MOST_ROWS:
-        return frame, ""
-    told = f" The page has the first {MOST_ROWS} rows, the file all {len(frame)}."
-    return frame.head(MOST_ROWS), told
-
-
-def titled(what: str, corpus: Corpus) -> str:
-    """Return the title of a corpus's table or figure, which says where it is simulated."""
-    return f"{what}: {corpus.name}" + (" (simulated)" if corpus.simulator else "")
 
 
 def origin(corpus: Corpus) -> str:

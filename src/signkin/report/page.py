@@ -1,13 +1,13 @@
-"""The report: one self-contained HTML page from tables, figures and captions.
+"""The report: self-contained HTML pages from tables, figures and captions.
 
 Tables and figures come in as data and files; nothing is computed here but counts
-of rows. The page asks the network for nothing: styles and figures are in it.
+of rows. A page asks the network for nothing: styles and scripts are in it, figures
+are in it or lie beside it.
 """
 
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +17,16 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-WORDS = ("verdict", "link")  # formats of columns that hold text
+from signkin.report.cells import (
+    MOST_LETTERS,
+    WORDS,
+    as_json,
+    cell,
+    first_that_fit,
+    notes_of,
+    texts_of,
+)
+from signkin.report.images import Images, data_uri, size_of
 
 
 @dataclass(frozen=True)
@@ -25,8 +34,9 @@ class TableView:
     """A table as it is shown: what is above it, the columns shown, the file with all of it.
 
     columns: column -> (heading, format); the format is empty for text, `verdict` for a verdict,
-    `link` for files relative to the page, else as in `format()`.
-    most: rows shown before the rest is folded away; the file has all.
+    `link` for files relative to the page, `open` for one address, `rating` for what the reader
+    thinks of a row, else as in `format()`. most: rows shown at once. keys: columns (recording,
+    signer, ...) that a row is known by, for marks in plots and ratings.
     """
 
     label: str
@@ -38,6 +48,9 @@ class TableView:
     differs: str = ""
     most: int = 24
     emphasis: str = ""  # a column whose value `yes` or `no` colours the row
+    keys: Sequence[str] = ()
+    of: str = ""  # the corpus, where a page has several
+    badge: str = ""  # `simulated`, `real` or nothing
 
 
 @dataclass(frozen=True)
@@ -50,6 +63,37 @@ class FigureView:
     svg: Path
     files: Sequence[Path] = ()
     differs: str = ""
+    of: str = ""
+    badge: str = ""
+
+
+@dataclass(frozen=True)
+class PlotView:
+    """A plot whose points can be chosen: SVG that stands in the page.
+
+    drawing: of `signkin.report.plots`. finding: what it shows, for who does not see it.
+    """
+
+    label: str
+    title: str
+    caption: str
+    drawing: Markup
+    files: Sequence[Path] = ()
+    differs: str = ""
+    of: str = ""
+    badge: str = ""
+
+
+View = TableView | FigureView | PlotView
+
+
+@dataclass(frozen=True)
+class Group:
+    """Lines of one kind, folded behind a sentence that counts them."""
+
+    told: str
+    lines: Sequence[str]
+    warns: bool = True
 
 
 @dataclass(frozen=True)
@@ -60,20 +104,25 @@ class Section:
     title: str
     text: Sequence[str] = ()
     badge: str = ""  # `simulated`, `real` or nothing
-    exhibits: Sequence[TableView | FigureView] = ()
+    exhibits: Sequence[View] = ()
     notices: Sequence[str] = ()
     links: Sequence[tuple[str, Path]] = ()
+    groups: Sequence[Group] = ()
 
 
 @dataclass(frozen=True)
 class Page:
-    """The whole page."""
+    """A page. site: the other pages, title and file; `here`: this one's title there."""
 
     title: str
     lead: Sequence[str]
     sections: Sequence[Section]
     version: str
     missing: Mapping[str, str] = field(default_factory=dict)
+    site: Sequence[tuple[str, Path]] = ()
+    here: str = ""
+    docs: Path | None = None
+    ratings: str = ""  # the corpus whose recordings can be rated here
 
 
 def figure_files(base: Path, *suffixes: str) -> tuple[Path, ...]:
@@ -81,8 +130,11 @@ def figure_files(base: Path, *suffixes: str) -> tuple[Path, ...]:
     return tuple(base.with_suffix(s) for s in (suffixes or (".svg", ".pdf", ".csv")))
 
 
-def render(page: Page, home: Path) -> str:
-    """Return the page as HTML; home: the folder it will lie in, for links to files."""
+def render(page: Page, home: Path, images: Images | None = None) -> str:
+    """Return the page as HTML; home: the folder it will lie in, for links to files.
+
+    images: where its figures are written; without, they are in the page.
+    """
     environment = Environment(
         loader=PackageLoader("signkin.report"),
         autoescape=True,
@@ -90,73 +142,46 @@ def render(page: Page, home: Path) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["data_uri"] = data_uri
+    environment.filters["address"] = lambda svg: (
+        images.address(svg, home) if images else data_uri(svg)
+    )
+    environment.filters["size"] = size_of
     environment.filters["link"] = lambda path: Path(os.path.relpath(path, home)).as_posix()
     environment.filters["suffix"] = lambda path: Path(path).suffix.lstrip(".").upper()
+    environment.filters["json"] = as_json
     environment.tests["figure"] = lambda view: isinstance(view, FigureView)
+    environment.tests["plot"] = lambda view: isinstance(view, PlotView)
     environment.tests["numeric"] = lambda form: bool(form) and form not in WORDS
     environment.globals["cell"] = cell
     environment.globals["rows_of"] = rows_of
-    environment.globals["notes_of"] = notes_of
+    environment.globals["shown_of"] = shown_of
     return environment.get_template("page.html.j2").render(page=page)
 
 
-def data_uri(svg: Path) -> Markup:
-    """Return an SVG file as a data address, so that identifiers of figures cannot clash."""
-    content = lighter(Path(svg).read_text(encoding="utf-8"))
-    for sign in '%#"&\n':  # the only ones that an address between double quotes cannot hold
-        content = content.replace(sign, f"%{ord(sign):02X}")
-    return Markup(f"data:image/svg+xml,{content}")
+@dataclass(frozen=True)
+class Shown:
+    """A table as the page has it: the first rows written out, the others for its script."""
 
+    first: Sequence[Mapping[str, Any]]
+    notes: Sequence[str]
+    more: Sequence[Sequence[str]]
+    left_out: int
 
-_PLACES = re.compile(r'(?<= )(d|x|y)="([^"]*)"')
-_LONG = re.compile(r"-?\d+\.\d{3,}")
-
-
-def lighter(svg: str) -> str:
-    """Return an SVG with places to a hundredth of its unit, a point as matplotlib writes it.
-
-    The page holds all figures; their files keep every digit.
-    """
-
-    def rounded(number: re.Match[str]) -> str:
-        return f"{float(number[0]):.2f}".rstrip("0").rstrip(".")
-
-    def shorter(found: re.Match[str]) -> str:
-        places = _LONG.sub(rounded, " ".join(found[2].split()))
-        return f"{found[1]}='{places}'"
-
-    body = svg[max(svg.find("<svg"), 0) :]  # an image in a page needs no prologue
-    body = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
-    body = re.sub(r">\s+<", "><", _PLACES.sub(shorter, body).strip())
-    # Single quotes stay as they are in the page, double ones would take three letters each.
-    return body if re.search(r'="[^"\']*\'', body) else body.replace('"', "'")
+    @property
+    def many(self) -> int:
+        """Number of rows that the page has."""
+        return len(self.first) + len(self.more)
 
 
 def rows_of(view: TableView) -> list[dict[str, Any]]:
     """Return the rows of a table as dictionaries."""
-    return view.frame.to_dict("records")
+    return [{str(k): v for k, v in row.items()} for row in view.frame.to_dict("records")]
 
 
-MOST_NOTES = 20  # more of them stay in their rows
-
-
-def notes_of(view: TableView) -> list[str]:
-    """Return the different notes of a table, which stand below it with numbers; none if many.
-
-    A column of sentences would make the rows of all others tall.
-    """
-    if "note" not in view.columns:
-        return []
-    notes = [str(note) for note in dict.fromkeys(view.frame["note"]) if note and pd.notna(note)]
-    return notes if len(notes) <= MOST_NOTES else []
-
-
-def cell(value: object, form: str) -> str:
-    """Return a value as it is printed; what is missing is a dash."""
-    if value is None or (isinstance(value, float) and pd.isna(value)) or value == "":
-        return "–"
-    if not form or form in WORDS or isinstance(value, str):
-        return str(value)
-    # A column of counts with gaps comes as floats.
-    return format(int(value) if form == "d" else value, form)  # type: ignore[call-overload]
+def shown_of(view: TableView, most: int = MOST_LETTERS) -> Shown:
+    """Return a table's rows as the page has them: no more than so many letters of them."""
+    rows = rows_of(view)
+    notes = notes_of(view.frame, view.columns)
+    more = texts_of(rows[view.most :], view.columns, notes, view.keys)
+    fit = first_that_fit(more, most)
+    return Shown(rows[: view.most], notes, more[:fit], len(more) - fit)

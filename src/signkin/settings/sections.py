@@ -399,6 +399,15 @@ class OpenChoices(Section):
     endres2013: EndresChoices = EndresChoices()
 
 
+class Report(Section):
+    """The pages of a run."""
+
+    explorer_recordings: Annotated[int, Field(ge=1)] | None = key(
+        50, "Recordings of a corpus that get a page of their own, at most: half of them those with "
+        "the most to look at, the others spread over the corpus; null: all.",
+    )  # fmt: skip
+
+
 class Settings(Section):
     """The scientific choices of a run."""
 
@@ -430,3 +439,4 @@ class Settings(Section):
     powerlaw: PowerLaw = PowerLaw()
     binning: Binning = Binning()
     open_choices: OpenChoices = OpenChoices()
+    report: Report = Report()

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 from signkin.errors import SignkinError
 from signkin.joints import HANDS
@@ -97,7 +97,9 @@ def in_bins(path: Floats, rate_hz: float, bins: int) -> tuple[Floats, float]:
     duration = (frames - 1) / rate_hz
     bin_s = duration / bins
     middle = (np.arange(bins) + 0.5) * bin_s
-    curve = make_interp_spline(np.arange(frames) / rate_hz, path, k=min(SPLINE_ORDER, frames - 1))
+    curve = scipy.interpolate.make_interp_spline(
+        np.arange(frames) / rate_hz, path, k=min(SPLINE_ORDER, frames - 1)
+    )
     return np.asarray(curve(middle)), bin_s
 
 

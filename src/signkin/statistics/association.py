@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
-import statsmodels.api as sm
 from numpy.typing import NDArray
 from scipy import stats
+from statsmodels.regression.linear_model import OLS
 from statsmodels.stats.proportion import proportion_confint
+from statsmodels.tools.tools import add_constant
 
 from signkin.statistics.findings import Finding, Kind, untestable
 
@@ -113,7 +114,7 @@ def isochrony(distance: Array, duration: Array, comparison: str, alpha: float) -
     reason = _why_no_line(x, y) or ("fewer than four transitions" if n < 4 else "")
     if reason:
         return untestable(ISOCHRONY, Kind.ASSOCIATION, comparison, n, reason).noted(note)
-    fit = sm.OLS(np.log(y), sm.add_constant(np.log(x))).fit(cov_type="HC3", use_t=True)
+    fit = OLS(np.log(y), add_constant(np.log(x))).fit(cov_type="HC3", use_t=True)
     low, high = fit.conf_int(alpha)[1]
     return Finding(
         ISOCHRONY,

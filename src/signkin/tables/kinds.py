@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from signkin.tables import audit, corpora, endres2013, naert2017
+from signkin.tables import audit, corpora, endres2013, naert2017, owner
 from signkin.tables.schema import Table
 
 SUBJECTS: dict[str, tuple[Table, ...]] = {
@@ -10,5 +10,6 @@ SUBJECTS: dict[str, tuple[Table, ...]] = {
     "Naert et al. 2017": naert2017.TABLES,
     "Endres et al. 2013": endres2013.TABLES,
     "Audit": audit.TABLES,
+    "Report": owner.TABLES,
 }
 TABLES = {table.name: table for of_subject in SUBJECTS.values() for table in of_subject}

@@ -1,13 +1,17 @@
 """Figures of Naert et al. 2017 are judged by what is drawn: artists, labels and units."""
 
+import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
+import seaborn
 
 from signkin.coarticulation.excerpts import choose_excerpts, excerpt_points
 from signkin.figures import distance, hands, refinement, speed
-from signkin.figures.style import LEFT, MANUAL, RIGHT, paper_style, save
+from signkin.figures.style import LEFT, MANUAL, RIGHT, STYLE, paper_style, save
+from signkin.studies.naert2017.figures import fig10_hands
+from signkin.tables import TABLES
 
 
 @pytest.fixture
@@ -108,6 +112,15 @@ def test_pairs_of_segmentations_are_joined(ax):
     assert "(m)" in ax.get_xlabel()
 
 
+def test_the_style_is_seaborns_ticks():
+    ticks = seaborn.axes_style("ticks")
+    ours = dict(mpl.rc_params_from_file(STYLE, use_default_template=False))
+    other = {"font.family", "image.cmap", "axes.spines.top", "axes.spines.right"}
+    assert {k: ours[k] for k in ticks if k not in other} == {
+        k: v for k, v in ticks.items() if k not in other
+    }
+
+
 def test_bars_of_hand_changes_tell_their_n(ax):
     groups = pd.DataFrame(
         {
@@ -120,6 +133,27 @@ def test_bars_of_hand_changes_tell_their_n(ax):
     labels = [t.get_text() for t in ax.get_xticklabels()]
     assert labels == ["1H → 1H\nn = 2", "1H → 2H\nn = 0 (none)"]
     assert ax.patches[0].get_height() == pytest.approx(0.3)
+
+
+def test_the_data_of_figure_10_hold_its_bars_and_its_dots():
+    transitions = pd.DataFrame(
+        {"type": ["1011", "", "0000", "0000"], "duration_s": [0.5, 0.9, 0.4, 0.2]}
+    )
+    published = pd.DataFrame(
+        {
+            "type": ["0000", "0010", "1100", "1011"], "n": ["6", "12", "3", "4"],
+            "mean": ["0.27", "0.31", "0.3", "0.4"],
+        }
+    )  # fmt: skip
+    shown = fig10_hands.data("signs", transitions, published)
+    bars, dots = (shown[shown["kind"] == kind] for kind in ("mean", "transition"))
+    assert list(shown) == TABLES["fig10"].names()
+    assert bars["n"].tolist() == [2, 0, 0, 1]
+    assert bars["mean_s"].iloc[[0, 3]].tolist() == pytest.approx([0.3, 0.5])
+    assert dots[["change", "duration_s"]].to_numpy().tolist() == [
+        ["1H to 1H", 0.2], ["1H to 1H", 0.4], ["2H to 2H", 0.5],
+    ]  # fmt: skip
+    assert dots[["n", "mean_s"]].isna().all(axis=None)
 
 
 def test_chance_band_and_truth_curves(ax):

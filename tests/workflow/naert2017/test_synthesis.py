@@ -27,7 +27,7 @@ def test_every_figure_and_table_is_there(simulated_run):
     rows = tables.read_table(folder / "synthesis/synthesis.csv", "synthesis")
     own = rows[rows["material"] == "own"]
     assert own.groupby(["recording", "transition"]).size().eq(10).all() and len(own) == 890
-    page = (simulated_run.results / "report/index.html").read_text()
+    page = (simulated_run.results / "report/papers/naert2017.html").read_text()
     assert "Synthesis against the captured motion" in page and "Figure 13" in page
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
-from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.report.exhibit_views import by_exhibit
+from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.studies.endres2013 import report_beside
 from signkin.tables import read_table
 
@@ -19,20 +21,42 @@ P3 = ".3f"
 SIMULATED = " Simulated: a test of the method, no evidence about people."
 
 
+CHAPTERS = {
+    "found": "Printed, and found here",
+    "power-laws": "2.3, 2.4 Power laws, and ground truth made with them",
+    "model": "2.5 The model",
+    "recovered": "3.1 Known boundaries found again",
+    "truth": "3.2 Ground truth of power laws",
+    "recorded": "3.3 Recorded movements",
+    "choices": "What the paper does not print decides its results",
+    "left-out": "Left out",
+}
+_CHAPTER = {
+    "fig01": "power-laws", "fig02": "model", "fig03": "recovered", "fig04": "recovered",
+    "figA1": "recovered", "fig05": "truth", "fig06": "truth", "fig07": "recorded",
+}  # fmt: skip
+
+
 def sections(
     results: Path, paper: Path, corpora: Mapping[str, Corpus], hit_window_s: float
 ) -> Iterator[Section]:
-    """Yield the sections of the study: the model, then the corpora of single signs.
+    """Yield a section a chapter of the paper, with what every corpus of single signs has of it.
 
     paper: the folder papers/endres2013. hit_window_s: binning.hit_window_s.
     """
     listing = exhibits(paper)
     folder = results / "endres2013"
-    yield _model(folder, of_groups(listing, "scheme"))
+    found: dict[str, list[View]] = {chapter: [] for chapter in CHAPTERS}
+    found["model"] += figure_views(folder, of_groups(listing, "scheme"))
     for name, corpus in corpora.items():
         if corpus.single_signs:
             shown = of_groups(listing, "figures")
-            yield _single_signs(folder / name, name, corpus, shown, hit_window_s)
+            for chapter, view in _single_signs(folder / name, corpus, shown, hit_window_s):
+                found[chapter].append(replace(view, of=name, badge=badge(corpus)))
+    order = {exhibit.label: i for i, exhibit in enumerate(listing)}
+    for chapter, title in CHAPTERS.items():
+        if found[chapter]:
+            yield Section(chapter, title, exhibits=by_exhibit(found[chapter], order))
 
 
 def figure_views(folder: Path, listing: Iterable[Exhibit], told: str = "") -> Iterator[FigureView]:
@@ -58,52 +82,32 @@ def badge(corpus: Corpus) -> str:
     return "simulated" if corpus.simulator else "real"
 
 
-def _model(folder: Path, listing: Iterable[Exhibit]) -> Section:
-    return Section(
-        "binning",
-        "Bayesian binning (Endres, Meirovitch, Flash & Giese 2013)",
-        text=[
-            "The paper's analyses of single signs, run on every corpus of single signs. Its own "
-            "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of "
-            "the prior decides its results: each corpus has a figure of how far."
-        ],
-        exhibits=tuple(figure_views(folder, listing)),
-    )
-
-
 def _single_signs(
-    folder: Path, name: str, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
-) -> Section:
-    views: list[TableView | FigureView] = [_printed_and_found(folder)]
+    folder: Path, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
+) -> Iterator[tuple[str, View]]:
+    yield "found", _printed_and_found(folder)
     for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
-        views.append(view)
+        yield _CHAPTER.get(view.svg.stem, "recorded"), view
         if view.svg.stem == "fig06":
-            views += [_rates(folder, hit_window_s), _tests(folder)]
+            yield "truth", _rates(folder, hit_window_s)
+            yield "truth", _tests(folder)
         if view.svg.stem == "fig07":
-            views += report_beside.learnt(folder)
-    views.append(
-        FigureView(
-            label="",
-            title="What the paper does not print decides its results",
-            caption=(folder / "order_choices.txt").read_text(encoding="utf-8").strip(),
-            svg=folder / "fig_order_choices.svg",
-            files=[
-                *figure_files(folder / "fig_order_choices", ".svg", ".pdf"),
-                folder / "order_choices.csv",
-            ],
-        )
+            yield from (("recorded", beside) for beside in report_beside.learnt(folder))
+    choices = FigureView(
+        label="",
+        title="Orders under all choices",
+        caption=(folder / "order_choices.txt").read_text(encoding="utf-8").strip(),
+        svg=folder / "fig_order_choices.svg",
+        files=[
+            *figure_files(folder / "fig_order_choices", ".svg", ".pdf"),
+            folder / "order_choices.csv",
+        ],
     )
-    views += report_beside.two_priors(folder)
-    views += report_beside.doubts(folder)
-    views += left_out(folder / "left_out.csv")
-    views += _rejected(folder)
-    return Section(
-        anchor=f"{name}-binning",
-        title=f"{name}: Bayesian binning",
-        text=[str(corpus.settings["title"]) + "."],
-        badge=badge(corpus),
-        exhibits=views,
-    )
+    yield "choices", choices
+    yield from (("choices", beside) for beside in report_beside.two_priors(folder))
+    yield from (("found", beside) for beside in report_beside.doubts(folder))
+    yield from (("left-out", view) for view in left_out(folder / "left_out.csv"))
+    yield from (("power-laws", view) for view in _rejected(folder))
 
 
 # --- tables ----------------------------------------------------------------------------------

@@ -16,32 +16,29 @@ from signkin.tables import read_table
 SIMULATED = " Simulated: the durations carry the printed Table 2; it is a test of the method only."
 
 
-def duration_views(
+def statistics_views(
+    folder: Path, settings: DurationSettings, simulated: bool
+) -> Iterator[TableView]:
+    """Yield the tables of tests of one corpus; folder: results/naert2017/<corpus>."""
+    warning = SIMULATED if simulated else ""
+    yield from _statistics(folder / "statistics.csv", settings.durations, warning)
+
+
+def model_views(
     folder: Path,
     settings: DurationSettings,
     constants: Mapping[str, str],
     exhibit: Mapping[str, str],
     simulated: bool,
 ) -> Iterator[TableView | FigureView]:
-    """Yield the tables and figures about durations of one corpus.
+    """Yield the tables and figures about models of duration of one corpus.
 
     folder: results/naert2017/<corpus>. constants: numbers printed in the paper's text.
     exhibit: the entry fig11 of exhibits.yaml.
     """
     warning = SIMULATED if simulated else ""
     chosen = settings.durations
-    yield from _statistics(folder / "statistics.csv", chosen, warning)
-    models = read_table(folder / "duration_models.csv", "duration_models")
-    yield _models(folder, models, chosen, constants, warning)
-    yield FigureView(
-        label="",
-        title="Duration models against the truth",
-        caption=_predictions_caption(models, warning),
-        svg=folder / "fig_durations.svg",
-        files=[folder / f"fig_durations{suffix}" for suffix in (".svg", ".pdf", ".csv")],
-    )
     coefficients = read_table(folder / "duration_coefficients.csv", "duration_coefficients")
-    yield _coefficients(folder, coefficients, chosen, settings, warning)
     if (folder / "fig11.svg").exists():
         yield FigureView(
             label=exhibit["label"],
@@ -51,6 +48,16 @@ def duration_views(
             files=[folder / f"fig11{suffix}" for suffix in (".svg", ".pdf", ".csv")],
             differs=exhibit["differs"],
         )
+    models = read_table(folder / "duration_models.csv", "duration_models")
+    yield _models(folder, models, chosen, constants, warning)
+    yield FigureView(
+        label="",
+        title="Duration models against the truth",
+        caption=_predictions_caption(models, warning),
+        svg=folder / "fig_durations.svg",
+        files=[folder / f"fig_durations{suffix}" for suffix in (".svg", ".pdf", ".csv")],
+    )
+    yield _coefficients(folder, coefficients, chosen, settings, warning)
 
 
 # --- statistics ------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
 
 from signkin import seeds, tables
 from signkin.coarticulation.duration import LINEAR_TERMS, TERMS, LinearDuration, SurfaceDuration
@@ -54,7 +54,7 @@ def _coefficients(
     model = LinearDuration() if name == "LINEAR" else SurfaceDuration()
     model.fit(learn.data)
     freedom = model.n - len(model.theta)
-    half = stats.t.isf(chosen.alpha / 2, freedom) * model.standard_error
+    half = scipy.stats.t.isf(chosen.alpha / 2, freedom) * model.standard_error
     recordings = list(learn.rows["recording"])
     units, _ = association.resampled_units(recordings, chosen.bootstrap_recordings)
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
-from scipy import stats
 
 from signkin import seeds, tables
 from signkin.annotation import Interval
@@ -293,7 +293,7 @@ def _n05(durations: Floats, distance: Floats) -> dict[str, Any]:
     row: dict[str, Any] = {"claim": "N05", "statistic": "Pearson r", "bound": 0.0, "n": len(x)}
     if len(x) < LEAST or np.ptp(x) == 0 or np.ptp(y) == 0:
         return {**row, "estimate": np.nan, "holds": False, "note": "too few pairs, or no spread"}
-    found = stats.pearsonr(x, y)
+    found = scipy.stats.pearsonr(x, y)
     holds = found.statistic > 0 and found.pvalue < ALPHA
     return {**row, "estimate": float(found.statistic), "holds": bool(holds)}
 
@@ -305,5 +305,5 @@ def _n12(durations: Floats, types: NDArray[np.str_]) -> dict[str, Any]:
     row: dict[str, Any] = {"claim": "N12", "statistic": "p of the ANOVA", "bound": ALPHA, "n": n}
     if len(kept) < 2 or n <= len(kept) or not any(np.ptp(group) for group in kept):
         return {**row, "estimate": np.nan, "holds": False, "note": "fewer than two groups"}
-    p = float(stats.f_oneway(*kept).pvalue)
+    p = float(scipy.stats.f_oneway(*kept).pvalue)
     return {**row, "estimate": p, "holds": p >= ALPHA}

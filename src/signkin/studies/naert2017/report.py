@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -13,16 +13,15 @@ import pandas as pd
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.exhibits import Exhibit, exhibits
-from signkin.report.exhibit_views import exhibit_view
-from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.report.exhibit_views import by_exhibit, exhibit_view
+from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.settings import Settings
-from signkin.studies.naert2017.durations_report import duration_views
+from signkin.studies.naert2017.durations_report import model_views, statistics_views
 from signkin.studies.naert2017.settings import DurationSettings
 from signkin.studies.naert2017.synthesis import report as synthesis_report
 from signkin.tables import read_table
 
 S3 = ".3f"
-View = TableView | FigureView
 
 
 @dataclass(frozen=True)
@@ -62,59 +61,78 @@ class Source:
     shown: Shown
 
 
+CHAPTERS = {
+    "overview": "The pipeline",
+    "synthesis": "3.1 Making a transition: interpolation and blending",
+    "speed": "4.1 Utterances and wrist speed",
+    "refinement": "4.2 Tags moved to minima of speed",
+    "durations": "5.1 Durations and distances of transitions",
+    "models": "5.2 Models of duration",
+    "truth": "5.2 Made against captured",
+}
+# Which chapter a figure or table of the paper belongs to; those not named are in `durations`.
+_CHAPTER = {
+    "fig01": "synthesis", "fig02": "synthesis", "fig03": "overview", "table1": "speed",
+    "fig04": "speed", "fig05": "speed", "fig06": "refinement", "fig11": "models",
+    "fig12": "truth", "fig13": "truth",
+}  # fmt: skip
+
+
 def sections(shown: Shown) -> Iterator[Section]:
-    """Yield a section a corpus with tags, or with takes of one sign."""
+    """Yield a section a chapter of the paper, with what every corpus has of it, in its order."""
+    found: dict[str, list[View]] = {chapter: [] for chapter in CHAPTERS}
     for name, corpus in shown.corpora.items():
-        folder = shown.file(name, "")
-        if corpus.tagged:
-            yield section(Source(corpus, folder, shown))
-        elif part := synthesis_report.section(corpus, folder, shown.listing):
-            yield part
+        source = Source(corpus, shown.file(name, ""), shown)
+        badge = "simulated" if corpus.simulator else "real"
+        parts = _views(source) if corpus.tagged else _untagged(source)
+        for chapter, view in parts:
+            found[chapter].append(replace(view, of=name, badge=badge))
+    order = {exhibit.label: i for i, exhibit in enumerate(shown.listing)}
+    for chapter, title in CHAPTERS.items():
+        if found[chapter]:
+            yield Section(chapter, title, exhibits=by_exhibit(found[chapter], order))
 
 
-def section(source: Source) -> Section:
-    """Return the section of one corpus with tags."""
-    corpus = source.corpus
-    text = [str(corpus.settings["title"]) + ".", str(corpus.settings.get("description", ""))]
-    text.append(f"Licence: {corpus.settings['licence']}. Source: {corpus.settings['citation']}.")
-    return Section(
-        anchor=corpus.name,
-        title=corpus.name,
-        text=[line for line in text if line],
-        badge="simulated" if corpus.simulator else "real",
-        exhibits=list(_views(source)),
-        notices=_unused_glosses(source),
-    )
+def _untagged(source: Source) -> Iterator[tuple[str, View]]:
+    yield from synthesis_report.chapters(source.folder, source.corpus, source.shown.listing)
 
 
-def _views(source: Source) -> Iterator[View]:
-    """Yield the exhibits in the paper's order, each with what belongs to it, then the rest."""
+def _views(source: Source) -> Iterator[tuple[str, View]]:
+    """Yield the exhibits in the paper's order with their chapter, each with what belongs to it."""
     captions = json.loads((source.folder / "captions.json").read_text(encoding="utf-8"))
     captions |= synthesis_report.captions(source.folder)
     for exhibit in source.shown.listing:
+        chapter = _CHAPTER.get(exhibit.stem, "durations")
         if exhibit.stem in _TABLES:
-            yield _TABLES[exhibit.stem](source, exhibit)
+            yield chapter, _TABLES[exhibit.stem](source, exhibit)
         elif exhibit.stem in captions:
-            yield exhibit_view(exhibit, source.folder, captions[exhibit.stem])
-        if exhibit.stem == "fig06":
-            yield from _refinement(source)
-        if exhibit.stem == "fig11":
-            yield from _durations(source, exhibit)
-    yield from _left_out(source)
-    yield _sign_types(source)
-    yield from synthesis_report.views(source.folder, source.corpus.unit)
+            yield chapter, exhibit_view(exhibit, source.folder, captions[exhibit.stem])
+        for view in _following(source, exhibit):
+            yield chapter, view
+    for view in synthesis_report.views(source.folder, source.corpus.unit):
+        yield "truth", view
     if source.corpus.simulator:
         yield from _simulation(source)
 
 
-def _durations(source: Source, exhibit: Exhibit) -> Iterator[View]:
+def _following(source: Source, exhibit: Exhibit) -> Iterator[View]:
+    """Yield what stands below a figure or table of the paper."""
     told = {"label": exhibit.label, "title": exhibit.title, "differs": exhibit.differs}
     simulated = source.corpus.simulator is not None
     chosen = DurationSettings.of(source.shown.settings)
-    yield from duration_views(source.folder, chosen, source.shown.constants, told, simulated)
+    if exhibit.stem == "fig06":
+        yield from refinement_views(source)
+    if exhibit.stem == "fig10":
+        yield from statistics_views(source.folder, chosen, simulated)
+        yield from left_out_views(source)
+        yield sign_types_view(source)
+    if exhibit.stem == "fig11":
+        constants = source.shown.constants
+        yield from model_views(source.folder, chosen, constants, told, simulated)
 
 
-def _unused_glosses(source: Source) -> list[str]:
+def unused_glosses(source: Source) -> list[str]:
+    """Return what is to be told of glosses of signs.csv that no recording has."""
     frame = read_table(source.folder / "lexicon.csv", "lexicon")
     unused = frame.loc[frame["occurrences"] == 0, "gloss"]
     if unused.empty:
@@ -194,7 +212,8 @@ def _table2(source: Source, exhibit: Exhibit) -> TableView:
 _TABLES: dict[str, Callable[[Source, Exhibit], TableView]] = {"table1": _table1, "table2": _table2}
 
 
-def _refinement(source: Source) -> Iterator[TableView | FigureView]:
+def refinement_views(source: Source) -> Iterator[View]:
+    """Yield what tells how the tags of a corpus lie to the minima of wrist speed."""
     path = source.folder / "refinement.csv"
     settings = source.shown.settings.refinement
     columns = {
@@ -267,7 +286,8 @@ def _tag_chance(source: Source) -> TableView:
     )
 
 
-def _left_out(source: Source) -> Iterator[TableView]:
+def left_out_views(source: Source) -> Iterator[TableView]:
+    """Yield the table of transitions of zero length and overlapping signs, where there are any."""
     path = source.folder / "transitions_left_out.csv"
     frame = read_table(path, "transitions")
     if frame.empty:
@@ -299,7 +319,8 @@ def _left_out(source: Source) -> Iterator[TableView]:
     )
 
 
-def _sign_types(source: Source) -> TableView:
+def sign_types_view(source: Source) -> TableView:
+    """Return the table of types of signs, by the lexicon and by motion."""
     path = source.folder / "sign_types.csv"
     frame = read_table(path, "sign_types")
     known = frame[frame["lexicon"] != ""]
@@ -325,54 +346,64 @@ def _sign_types(source: Source) -> TableView:
     )
 
 
-def _simulation(source: Source) -> Iterator[TableView | FigureView]:
+def _simulation(source: Source) -> Iterator[tuple[str, View]]:
     error_path = source.folder / "truth_error.csv"
-    yield TableView(
-        label="",
-        title="Error of the tags to the true boundaries",
-        caption="Mean absolute error before and after refinement, with 95 % bootstrap intervals.",
-        frame=read_table(error_path, "truth_error"),
-        columns={
-            "hand": ("hand", ""),
-            "segmentation": ("tags", ""),
-            "n": ("n", "d"),
-            "mean_error_s": ("mean error (s)", ".4f"),
-            "low_s": ("2.5 %", ".4f"),
-            "high_s": ("97.5 %", ".4f"),
-            "median_error_s": ("median (s)", ".4f"),
-            "within_20ms": ("within 0.02 s", ".0%"),
-        },
-        file=error_path,
+    yield (
+        "refinement",
+        TableView(
+            label="",
+            title="Error of the tags to the true boundaries",
+            caption="Mean absolute error before and after refinement, with 95 % bootstrap "
+            "intervals.",
+            frame=read_table(error_path, "truth_error"),
+            columns={
+                "hand": ("hand", ""),
+                "segmentation": ("tags", ""),
+                "n": ("n", "d"),
+                "mean_error_s": ("mean error (s)", ".4f"),
+                "low_s": ("2.5 %", ".4f"),
+                "high_s": ("97.5 %", ".4f"),
+                "median_error_s": ("median (s)", ".4f"),
+                "within_20ms": ("within 0.02 s", ".0%"),
+            },
+            file=error_path,
+        ),
     )
     path = source.folder / "surface.csv"
     frame = read_table(path, "surface")
     unit = source.shown.settings.transitions.euclidean_unit_m
-    yield TableView(
-        label="",
-        title="The duration surface found again (eq. 4)",
-        caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
-        f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s (the "
-        f"paper: {source.shown.constants['mean_error']} s). Designed: the same fit on the "
-        "distances that the simulation was made to have between the true boundaries; the tags "
-        "stand off these, which shifts the fit.",
-        frame=frame,
-        columns={
-            "coefficient": ("coefficient", ""),
-            "published": ("printed", ""),
-            "designed": ("designed", ".6f"),
-            "fitted": ("fitted", ".6f"),
-            "low": ("95 % low", ".4f"),
-            "high": ("95 % high", ".4f"),
-            "shift_percent": ("shift (%)", "+.1f"),
-        },
-        file=path,
+    yield (
+        "models",
+        TableView(
+            label="",
+            title="The duration surface found again (eq. 4)",
+            caption=f"Least squares on {int(frame['n'].iloc[0])} manual transitions, Euclidean "
+            f"distance in units of {unit:g} m; mean error {frame['mean_error_s'].iloc[0]:.5f} s "
+            f"(the paper: {source.shown.constants['mean_error']} s). Designed: the same fit on the "
+            "distances that the simulation was made to have between the true boundaries; the tags "
+            "stand off these, which shifts the fit.",
+            frame=frame,
+            columns={
+                "coefficient": ("coefficient", ""),
+                "published": ("printed", ""),
+                "designed": ("designed", ".6f"),
+                "fitted": ("fitted", ".6f"),
+                "low": ("95 % low", ".4f"),
+                "high": ("95 % high", ".4f"),
+                "shift_percent": ("shift (%)", "+.1f"),
+            },
+            file=path,
+        ),
     )
     base = source.folder / "fig_simulation"
-    yield FigureView(
-        label="",
-        title="Truth found again",
-        caption="Left: share of tags over their error to the true boundary, before (dashed) and "
-        "after refinement. Right: coefficients of the surface over the printed ones.",
-        svg=base.with_suffix(".svg"),
-        files=figure_files(base, ".svg", ".pdf"),
+    yield (
+        "models",
+        FigureView(
+            label="",
+            title="Truth found again",
+            caption="Left: share of tags over their error to the true boundary, before (dashed) "
+            "and after refinement. Right: coefficients of the surface over the printed ones.",
+            svg=base.with_suffix(".svg"),
+            files=figure_files(base, ".svg", ".pdf"),
+        ),
     )

@@ -64,8 +64,8 @@ def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
         "start and end where the other puts its minima and tags?"
     ]
     return Section(
-        anchor=f"{name}-one-wrist",
-        title=f"{name}: two papers, one wrist",
+        anchor=name,
+        title=name,
         text=text,
         badge=badge(corpus),
         exhibits=views,

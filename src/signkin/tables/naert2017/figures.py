@@ -65,11 +65,14 @@ TABLES = (
     Table(
         "fig10",
         "results/naert2017/<corpus>/fig10.csv",
-        "a change in the number of hands (Naert et al. 2017, Fig. 10; type 2 is two-handed)",
+        "a change in the number of hands, or one transition (Naert et al. 2017, Fig. 10; type 2 is "
+        "two-handed)",
         (
             text("corpus", "corpus"),
+            text("kind", "mean (a bar) or transition (a dot)"),
             text("change", "1H to 1H, 1H to 2H, 2H to 1H or 2H to 2H"),
-            Column("n", "", "transitions"),
+            Column("duration_s", "s", "of one transition; empty in means"),
+            Column("n", "", "transitions; empty in single ones"),
             Column("mean_s", "s", "mean duration"),
             Column("sd_s", "s", "standard deviation, divisor n - 1"),
             Column("published_n", "", "transitions, summed from the paper's Table 2"),

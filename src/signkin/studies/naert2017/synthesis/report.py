@@ -11,10 +11,8 @@ import pandas as pd
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit
 from signkin.report.exhibit_views import exhibit_view
-from signkin.report.page import FigureView, Section, TableView
+from signkin.report.page import TableView, View
 from signkin.tables import read_table
-
-View = TableView | FigureView
 
 
 def captions(folder: Path) -> dict[str, str]:
@@ -42,25 +40,28 @@ def views(folder: Path, unit: str) -> Iterator[View]:
             yield _utterances(frame, path, folder / "synthesis" / "utterances", unit)
 
 
-def section(corpus: Corpus, folder: Path, listing: Iterable[Exhibit]) -> Section | None:
-    """Return the section of a corpus without tags, None where nothing was synthesised."""
+def chapters(
+    folder: Path, corpus: Corpus, listing: Iterable[Exhibit]
+) -> Iterator[tuple[str, View]]:
+    """Yield chapter and exhibit of a corpus without tags; nothing where none was synthesised."""
     told = captions(folder)
     if not told:
-        return None
-    exhibits: list[View] = [
-        exhibit_view(exhibit, folder, told[exhibit.stem])
-        for exhibit in listing
-        if exhibit.stem in told
-    ]
+        return
+    for exhibit in listing:
+        if exhibit.stem in told:
+            chapter = "truth" if exhibit.stem in ("fig12", "fig13") else "synthesis"
+            yield chapter, exhibit_view(exhibit, folder, told[exhibit.stem])
     path = folder / "synthesis" / "found_signs.csv"
     found = read_table(path, "found_signs")
-    exhibits.append(
+    yield (
+        "synthesis",
         TableView(
             label="",
             title="Signs found",
             caption="The sign of each take, between two rest parts: from where the raised hand "
             "has come to rest to where it begins to fall (config.yaml, synthesis.found_*); or as "
-            "corpus.yaml says.",
+            "corpus.yaml says. The corpus has no tags: nothing is compared with captured "
+            "transitions.",
             frame=found,
             columns={
                 "recording": ("recording", ""),
@@ -70,17 +71,10 @@ def section(corpus: Corpus, folder: Path, listing: Iterable[Exhibit]) -> Section
                 "source": ("source", ""),
             },
             file=path,
-        )
+        ),
     )
-    exhibits += views(folder, corpus.unit)
-    return Section(
-        anchor=f"{corpus.name}-synthesis",
-        title=f"{corpus.name}: synthesis",
-        text=[str(corpus.settings["title"]) + ".", "The corpus has no tags: nothing is compared "
-              "with captured transitions."],
-        badge="simulated" if corpus.simulator else "real",
-        exhibits=exhibits,
-    )  # fmt: skip
+    for view in views(folder, corpus.unit):
+        yield "synthesis", view
 
 
 _ABOUT = {
