@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from tools.binning import SINGLE, VARIANTS, Takes, outcome, takes, with_binning
+from signkin.studies.endres2013.single_signs import Trajectory
+from tools.binning import SINGLE, VARIANTS, Takes, cut, outcome, takes, with_binning
 from tools.binning_tables import SHIPPED, Outcome
 from tools.numbers import table
 from tools.shipped import shipped
@@ -27,9 +28,10 @@ def literal(of: Takes) -> dict[Reading, Outcome]:
           "false pos./s |")  # fmt: skip
     print("|---" * 7 + "|")
     out = {}
+    trajectories = cut(of, shipped(), VARIANTS[SHIPPED])  # the prior has no part in it
     for unit in UNITS:
         for dof in DEGREES:
-            one = out[unit, dof] = under(of, unit, dof)
+            one = out[unit, dof] = under(of, trajectories, unit, dof)
             print(
                 f"| {unit}, {dof:g} | {one.m()} | {one.peak} ({one.posterior.max():.2f}) "
                 f"| {one.middle} | {one.truths_peak} | {truths_share(one)} | {one.rates} "
@@ -39,13 +41,13 @@ def literal(of: Takes) -> dict[Reading, Outcome]:
     return out
 
 
-def under(of: Takes, unit: str, dof: float) -> Outcome:
+def under(of: Takes, trajectories: list[Trajectory], unit: str, dof: float) -> Outcome:
     """Bin a corpus with the data's variances as V, in a unit of length."""
     changes = {
         "prior.noise": "data", "prior.scale": "literal", "prior.length_unit": unit,
         "prior.dof": dof,
     }  # fmt: skip
-    return outcome(of, with_binning(shipped(), changes), VARIANTS[SHIPPED])
+    return outcome(of, with_binning(shipped(), changes), VARIANTS[SHIPPED], trajectories)
 
 
 def truths_share(of: Outcome) -> str:
@@ -76,7 +78,7 @@ def sample(results: Path) -> tuple[str, str]:
     """Return a place and the start of a row of it, from simulated recordings, to compare."""
     of = takes("isl-sim", results, results)
     assert of is not None
-    one = under(of, UNITS[0], DEGREES[0])
+    one = under(of, cut(of, shipped(), VARIANTS[SHIPPED]), UNITS[0], DEGREES[0])
     return "readings-literal", (
         f"| mm, nu = 3 | {one.m()}; {one.peak}, {one.middle}; {one.truths_peak} "
         f"({truths_share(one)}) |"
