@@ -1,6 +1,7 @@
 # make               set up and run the main job: tables, figures and the report
 # make DATA=folder   the same with the real recordings of a folder (or set SIGNKIN_DATA)
 # make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
+# make fetch CORPUS=...   get the files of a corpus that have a public address, and verify them
 # make test          set up and pass the tests
 # make lint          its first half: style, types, import contracts
 # make coverage      which lines the unit tests run: a table, and build/coverage/index.html
@@ -19,7 +20,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all utterance test lint unit coverage docs numbers settings bench lock bench-lock clean
+.PHONY: all utterance fetch test lint unit coverage docs numbers settings bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -27,6 +28,9 @@ all: $(VENV)/ready
 
 utterance: $(VENV)/ready
 	@$(BIN)/signkin utterance '$(CORPUS)' '$(GLOSSES)' $(ARGS)
+
+fetch: $(VENV)/ready
+	@$(BIN)/signkin corpus fetch '$(CORPUS)' $(ARGS)
 
 $(VENV)/ready: requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(0 if v >= (3, 11) else \

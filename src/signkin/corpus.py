@@ -265,14 +265,13 @@ def _check_joints(motion: Mapping[str, Any], file: Path) -> None:
                 place="key motion.joints",
                 expected=joint_names.vocabulary(),
             )
-    for hand in joint_names.HANDS:
-        if f"{hand}_wrist" not in motion["joints"]:
-            raise SignkinError(
-                f"no joint {hand}_wrist",
-                file=file,
-                place="key motion.joints",
-                expected="both wrists, which every analysis needs",
-            )
+    if not joint_names.hands_of(motion["joints"]):
+        raise SignkinError(
+            "no joint right_wrist and no joint left_wrist",
+            file=file,
+            place="key motion.joints",
+            expected="both wrists, or one of a one-handed recording: every analysis needs one",
+        )
 
 
 def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, str]]]:

@@ -42,6 +42,17 @@ def split(joint: str) -> tuple[str | None, str]:
     return None, joint
 
 
+def hands_of(joints: Iterable[str]) -> tuple[str, ...]:
+    """Return the hands whose wrist is among the joints: one of a one-handed recording."""
+    there = set(joints)
+    return tuple(hand for hand in HANDS if f"{hand}_wrist" in there)
+
+
+def wrists_of(joints: Iterable[str]) -> list[str]:
+    """Return the wrists among the joints."""
+    return [f"{hand}_wrist" for hand in hands_of(joints)]
+
+
 def arm_joints(joints: Iterable[str], hand: str) -> list[str]:
     """Return the joints of one arm, shoulder to fingertips (Naert et al. 2017, section 5.1)."""
     sided = ((joint, *split(joint)) for joint in joints)

@@ -132,7 +132,10 @@ class Recording:
         try:
             return self._index[joint]
         except KeyError:
-            raise self._error("joints", f"no joint {joint!r}", listed(self.joints, 60)) from None
+            error = self._error("joints", f"no joint {joint!r}", listed(self.joints, 60))
+            if joint.endswith("_wrist"):
+                error.todo = "What needs both hands cannot be made of one."
+            raise error from None
 
     def track(self, joint: str) -> NDArray[np.float64]:
         """Return the path of one joint, (F, 3)."""

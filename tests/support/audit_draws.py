@@ -103,6 +103,37 @@ def range_possible(rng):
 
 
 @draw
+def closure(rng):
+    # Small enough to count, mostly; a wide scale is answered by "too many".
+    low, ddof = int(rng.integers(0, 2)), int(rng.integers(2))
+    high = low + int(rng.choice([1, 4, 6, 10]))
+    values = np.rint(low + (high - low) * rng.beta(*rng.uniform(0.3, 3, 2), rng.integers(2, 40)))
+    places = int(rng.integers(1, 4))
+    spread = put(rng, values.std(ddof=ddof), places)
+    return {"mean": put(rng, values.mean(), places), "sd": spread, "n": str(len(values)),
+            "grain": "1", "low": str(low), "high": str(high)}, ""  # fmt: skip
+
+
+@draw
+def sprite(rng):
+    values, low, high = scores(rng)
+    places, ddof = int(rng.integers(1, 4)), int(rng.integers(2))
+    given = {"mean": put(rng, values.mean(), places), "sd": put(rng, values.std(ddof=ddof), places)}
+    return {**given, "n": str(len(values)), "grain": "1", "low": str(low), "high": str(high),
+            "draws": "5"}, ""  # fmt: skip
+
+
+@draw
+def observed_range(rng):
+    # A further draw of scale_bounds: the least and greatest value as the range.
+    values = rng.normal(10, 3, int(rng.integers(2, 40)))
+    places, ddof = int(rng.integers(0, 3)), int(rng.integers(2))
+    return {"mean": put(rng, values.mean(), places), "sd": put(rng, values.std(ddof=ddof), places),
+            "n": str(len(values)), "low": put(rng, values.min(), places), "observed": True,
+            "high": put(rng, values.max(), places)}, ""  # fmt: skip
+
+
+@draw
 def scale_bounds(rng):
     values, low, high = scores(rng)
     values = values if rng.random() < 0.5 else low + (high - low) * rng.random(len(values))
@@ -125,6 +156,19 @@ def pooled(rng):
     given = {"mean_of_all": put(rng, whole.mean(), 2), "n_of_all": str(len(whole)),
              "sd_of_all": put(rng, whole.std(ddof=ddof), 2)}  # fmt: skip
     return {"table": "t.csv", **given}, "\n".join(["g,n,mean,sd", *rows])
+
+
+@draw
+def same_whole(rng):
+    values, places, ddof = rng.normal(5, 2, int(rng.integers(8, 60))), int(rng.integers(0, 3)), 1
+    rows = []
+    for i in range(int(rng.integers(2, 5))):
+        cut = int(rng.integers(2, len(values) - 1))
+        mixed = rng.permutation(values)
+        for k, v in enumerate((mixed[:cut], mixed[cut:])):
+            sd = put(rng, v.std(ddof=ddof), places) if len(v) > 1 else ""
+            rows.append(f"g{i}{k},s{i},{len(v)},{put(rng, v.mean(), places)},{sd}")
+    return {"table": "t.csv", "split": "by", "sd": "sd"}, "\n".join(["g,by,n,mean,sd", *rows])
 
 
 @draw
@@ -373,7 +417,7 @@ def accused(name: str, rng: Rng, folder: Path) -> list[str]:
     given, table = DRAWS[name](rng)
     if table:
         (folder / "t.csv").write_text(table + "\n")
-    found = findings_of(name, given, folder)
+    found = findings_of({"observed_range": "scale_bounds"}.get(name, name), given, folder)
     return [f"{given} {table!r}: {f.why}" for f in found if f.verdict == "inconsistent" or f.fault]
 
 

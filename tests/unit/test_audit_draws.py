@@ -12,7 +12,7 @@ SLOW = {"grimmer": 60, "left_out": 60, "groups_differ": 60, "test_of_groups": 80
 
 
 def test_every_check_has_its_draws():
-    assert set(DRAWS) | NONE == set(PUBLISHED)
+    assert set(DRAWS) - {"observed_range"} | NONE == set(PUBLISHED)
 
 
 @pytest.mark.parametrize("name", sorted(DRAWS))

@@ -27,7 +27,7 @@ ON_PRINT = {
     ),
     **dict.fromkeys(
         ["N05", "N06", "N13", "N19", "N21", "N22", "N23", "E01", "E02", "E03", "E07", "E09", "E10",
-         "E11", "E13"], "not testable",
+         "E11", "E13", "E14"], "not testable",
     ),
     "N18": "inconsistent",
 }  # fmt: skip
@@ -66,10 +66,10 @@ def verdicts(folder):
 # --- verdicts
 
 
-def test_all_36_claims_have_a_verdict_with_a_reason(papers, tmp_path):
+def test_all_37_claims_have_a_verdict_with_a_reason(papers, tmp_path):
     corpora = evidence_for("naert2017", {"a": False, "b": True}, [], tmp_path)
     found = audit(papers, corpora).claims
-    assert len(found) == 36 * 3
+    assert len(found) == 37 * 3
     assert (found["note"] != "").all()
     published = found[found["evidence"] == PRINT]
     assert dict(zip(published["id"], published["verdict"], strict=True)) == ON_PRINT

@@ -105,8 +105,8 @@ def test_formats_of_the_model_are_those_that_can_be_read():
             r"the joint 'left_hand_wrist' is not in the vocabulary; expected one of pelvis",
         ),
         (
-            changed(motion__joints={"right_wrist": "a", "nose": "b"}),
-            r"no joint left_wrist; expected both wrists",
+            changed(motion__joints={"right_elbow": "a", "nose": "b"}),
+            r"no joint right_wrist and no joint left_wrist; expected both wrists, or one",
         ),
         (
             changed(annotation__utterance_tier="u", annotation__utterance_gap_s=1),

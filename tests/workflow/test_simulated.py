@@ -186,7 +186,7 @@ def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
     assert told.status == 1
     for path, what in ((cut, "changed"), (flipped, "changed"), (gone, "missing")):
         assert f"{path.relative_to(own_copy.folder)}: {what}" in told.text
-    again = checked(run(own_copy.folder))
+    again = checked(run(own_copy.folder, "--", str(gone.relative_to(own_copy.folder))))
     assert f"{cut.relative_to(own_copy.folder)} is not what its job wrote" in again.text
     compared = signkin("compare", str(simulated_run.results), "results", folder=own_copy.folder)
     assert compared.text.startswith("No difference beyond 1e-09"), compared.text

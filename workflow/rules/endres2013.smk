@@ -4,6 +4,7 @@ from signkin.studies.endres2013.settings import (
     ChoiceSettings,
     CutSettings,
     FitSettings,
+    ReadingSettings,
 )
 
 ENDRES_EXHIBITS = exhibits(PLAN.papers / "endres2013")
@@ -116,10 +117,10 @@ rule order_choices:
     output:
         order_choices="<results>/endres2013/{corpus}/order_choices.csv",
         learnt_prior="<results>/endres2013/{corpus}/learnt_prior.csv",
-        readings="<results>/endres2013/{corpus}/readings.csv",
-        beside_svg="<results>/endres2013/{corpus}/fig_readings.svg",
-        beside_pdf="<results>/endres2013/{corpus}/fig_readings.pdf",
-        beside_caption="<results>/endres2013/{corpus}/readings.txt",
+        two_priors="<results>/endres2013/{corpus}/two_priors.csv",
+        beside_svg="<results>/endres2013/{corpus}/fig_two_priors.svg",
+        beside_pdf="<results>/endres2013/{corpus}/fig_two_priors.pdf",
+        beside_caption="<results>/endres2013/{corpus}/two_priors.txt",
         svg="<results>/endres2013/{corpus}/fig_order_choices.svg",
         pdf="<results>/endres2013/{corpus}/fig_order_choices.pdf",
         caption="<results>/endres2013/{corpus}/order_choices.txt",
@@ -133,6 +134,53 @@ rule order_choices:
         settings=ChoiceSettings.of(SETTINGS),
     script:
         "../scripts/endres2013/open_choices.py"
+
+
+rule printed_readings:
+    """The study without each rule that we add to the print (2.4, 3.1)."""
+    input:
+        rules.compile_kernels.output,
+        recordings=of_shards(rules.ingest.output.recordings),
+    output:
+        equal_bins="<results>/endres2013/{corpus}/equal_bins.csv",
+        readings_binning="<results>/endres2013/{corpus}/readings_binning.csv",
+        readings_hit_rates="<results>/endres2013/{corpus}/readings_hit_rates.csv",
+        readings_order_posteriors="<results>/endres2013/{corpus}/readings_order_posteriors.csv",
+        readings_ground_truth="<results>/endres2013/{corpus}/readings_ground_truth.csv",
+    log:
+        "<logs>/endres2013/{corpus}/readings.log",
+    threads: 2
+    params:
+        code=PLAN.digest("endres2013/readings.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=SETTINGS.seed,
+        settings=ReadingSettings.of(SETTINGS),
+    script:
+        "../scripts/endres2013/readings.py"
+
+
+rule recorded_laws:
+    """Power laws of recorded segments, and what noise and filter do to exponents (2.3)."""
+    input:
+        recordings=of_shards(rules.ingest.output.recordings),
+        posteriors=of_shards(rules.bin_single_signs.output.posteriors),
+        about=rules.gather.output.recordings,
+    output:
+        recorded_laws="<results>/endres2013/{corpus}/recorded_laws.csv",
+        law_pitfalls="<results>/endres2013/{corpus}/law_pitfalls.csv",
+        svg="<results>/endres2013/{corpus}/fig_recorded_laws.svg",
+        pdf="<results>/endres2013/{corpus}/fig_recorded_laws.pdf",
+        caption="<results>/endres2013/{corpus}/recorded_laws.txt",
+    log:
+        "<logs>/endres2013/{corpus}/recorded_laws.log",
+    params:
+        code=PLAN.digest("endres2013/recorded_laws.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=SETTINGS.seed,
+        settings=CutSettings.of(SETTINGS),
+        recordings=SETTINGS.binning.fitted_recordings,
+    script:
+        "../scripts/endres2013/recorded_laws.py"
 
 
 rule binning_scheme:
@@ -156,6 +204,8 @@ rule endres2013:
         collect(rules.endres_tables.output, corpus=PLAN.single_signs),
         collect(rules.endres_figures.output, corpus=PLAN.single_signs),
         collect(rules.order_choices.output, corpus=PLAN.single_signs),
+        collect(rules.printed_readings.output, corpus=PLAN.single_signs),
+        collect(rules.recorded_laws.output, corpus=PLAN.single_signs),
         collect(rules.one_wrist.output, corpus=PLAN.continuous),
         collect(
             rules.binning_elan.output,

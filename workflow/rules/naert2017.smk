@@ -77,6 +77,8 @@ rule naert_tables:
         table2="<results>/naert2017/{corpus}/table2.csv",
         refinement="<results>/naert2017/{corpus}/refinement.csv",
         tag_chance="<results>/naert2017/{corpus}/tag_chance.csv",
+        readings_boundaries="<results>/naert2017/{corpus}/readings_boundaries.csv",
+        readings_segmentations="<results>/naert2017/{corpus}/readings_segmentations.csv",
         quality=multiext("<results>/naert2017/{corpus}/fig_refinement", ".svg", ".pdf"),
     log:
         "<logs>/naert2017/{corpus}/tables.log",
@@ -358,6 +360,7 @@ rule claim_choices:
         transitions=rules.naert_tables.output.transitions,
     output:
         claim_choices="<results>/naert2017/{corpus}/claim_choices.csv",
+        interval_chance="<results>/naert2017/{corpus}/interval_chance.csv",
     log:
         "<logs>/naert2017/{corpus}/claim_choices.log",
     params:

@@ -44,7 +44,7 @@ def read_claims(path: Path) -> ClaimsFile:
     try:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
         if node is None:
-            raise SignkinError("it is empty", file=path, expected="paper, study and claims",
+            raise SignkinError("it is empty", file=path, expected="paper and claims",
                                todo=GUIDE)  # fmt: skip
         lines: dict[Path_, int] = {}
         doubled: list[tuple[Path_, str, int]] = []
@@ -134,6 +134,12 @@ def _check(
         if i in bad:
             continue
         error = _fault(_validator("claim"), claim, path, lines, ("claims", i))
+        if error is None and claim.get("corpora", {}).get("checks") and "study" not in content:
+            error = SignkinError(
+                "it has checks on corpora, and the paper no study", file=path,
+                place=f"line {lines['claims', i, 'corpora']}",
+                expected="study: the folder of the results that they read",
+            )  # fmt: skip
         if error is None and claim["id"] in seen:
             error = SignkinError(
                 f"the claim {claim['id']} stands in line {seen[claim['id']]} already",
@@ -151,8 +157,7 @@ def _check(
 
 
 _NO_CLAIM = {
-    "id": "X", "location": "x", "claim": "x", "needs": "x",
-    "published": {"missing": "x"}, "corpora": {"missing": "x"},
+    "id": "X", "location": "x", "claim": "x", "published": {"missing": "x"},
 }  # fmt: skip
 
 

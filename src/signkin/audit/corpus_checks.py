@@ -210,46 +210,6 @@ def correlation(
 
 
 @on_corpus
-def groups_differ(
-    context: OnCorpus,
-    table: str,
-    value: str,
-    by: str,
-    differ: bool,
-    where: str = "",
-    test: str = "anova",
-    alpha: str | float = 0.05,
-    least: int = 2,
-) -> list[Finding]:
-    """A column differs between groups (`differ: true`), or not significantly (`false`).
-
-    test: anova or kruskal. Groups of fewer than `least` values are left out and counted.
-    """
-    frame = _rows(context, table, where)
-    values = _numbers(context, table, frame, value)
-    keys = _numbers(context, table, frame, by)
-    there = values.notna() & (keys.astype(str) != "")
-    parts = [g.to_numpy(dtype=float) for _, g in values[there].groupby(keys[there], sort=True)]
-    kept = [p for p in parts if len(p) >= least]
-    if len(kept) < 2 or sum(map(len, kept)) <= len(kept):
-        raise Missing(f"{len(kept)} groups of {least} values or more in {table}.csv")
-    if not np.ptp(np.concatenate(kept)):
-        raise Missing(f"no spread of {value} in {table}.csv")
-    done = stats.f_oneway(*kept) if test == "anova" else stats.kruskal(*kept)
-    n = sum(map(len, kept))
-    df = f"({len(kept) - 1}, {n - len(kept)})" if test == "anova" else f"({len(kept) - 1})"
-    level = context.number(alpha)
-    holds = (done.pvalue < level) == differ
-    letter = "F" if test == "anova" else "H"
-    told = f"{letter}{df} = {done.statistic:.3f}, p = {done.pvalue:.3g}"
-    why = f"{told}; n = {n}, level {level:g}, {len(kept)} groups"
-    dropped = len(parts) - len(kept)
-    why += f" ({dropped} with fewer than {least} left out)" if dropped else ""
-    return [Finding(HOLDS if holds else FAILS, why, recomputed=told,
-                    source=context.source(table))]  # fmt: skip
-
-
-@on_corpus
 def mostly(
     context: OnCorpus, table: str, holds: str, share: float, missing: str, where: str = ""
 ) -> list[Finding]:

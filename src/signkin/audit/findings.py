@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from signkin.audit.verdicts import Verdict
 from signkin.errors import SignkinError
@@ -14,6 +15,18 @@ UNDECIDED, DEPENDS = Verdict.UNDECIDED.value, Verdict.DEPENDS.value
 BY_CONSTRUCTION = Verdict.BY_CONSTRUCTION.value
 UNDECIDABLE = "undecidable"  # of a single check: a claim it alone stands on is not testable
 DECISION, DIGITS = "the decision changes", "digits only"
+
+
+class Copies(NamedTuple):
+    """A bar of a histogram over samples: a value, or a class of them, and how many copies.
+
+    least, mean, most: over the samples.
+    """
+
+    value: str
+    least: float
+    mean: float
+    most: float
 
 
 @dataclass(frozen=True)
@@ -27,7 +40,8 @@ class Finding:
     table that the finding is about. settings: grain, divisor, df and the like. hand: how to redo
     it by hand.
     nearest: what would be consistent. severity: whether a decision (significant or not) changes.
-    fault: the input could not be used; `why` tells where and why.
+    fault: the input could not be used; `why` tells where and why. histogram: of samples that
+    print so.
     """
 
     verdict: str
@@ -42,6 +56,7 @@ class Finding:
     nearest: str = ""
     severity: str = ""
     fault: bool = False
+    histogram: tuple[Copies, ...] = ()
 
 
 def unusable(error: SignkinError, item: str = "", source: str = "") -> Finding:
@@ -69,6 +84,8 @@ def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Find
     tried = [(readings[0][0], first), *((name, check()) for name, check in readings[1:])]
     for verdict in (CONSISTENT, UNDECIDABLE):
         fitting = [(name, f) for name, f in tried if f.verdict == verdict]
+        if len(fitting) == len(tried):  # open under each reading: none is to be named
+            return fitting[0][1]
         if fitting and (verdict == UNDECIDABLE or fitting[0][0] != tried[0][0]):
             names = " or ".join(name for name, _ in fitting)
             why = f"{fitting[0][1].why}; only read as {names}"
@@ -77,7 +94,6 @@ def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Find
             severity = fitting[0][1].severity
             if first.severity == DECISION:
                 severity = f"{DECISION} if read as {tried[0][0]}"
-            why = why if len(tried) > 1 else fitting[0][1].why
             return replace(fitting[0][1], why=why, severity=severity)
         if fitting:
             return fitting[0][1]

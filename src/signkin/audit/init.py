@@ -80,7 +80,6 @@ def written(draft: Draft, file: Path) -> str:
         f"# Drafted from {file.name}. Go through it: every claim says where it was found, and",
         "# `# ?` starts questions whose answer a verdict may hang on.",
         f"paper: {json.dumps(file.stem)}   # ? authors and year",
-        f"study: {re.sub(r'[^A-Za-z0-9._-]+', '-', file.stem)}",
         "claims:",
     ]
     tail = [f"# not understood: {line}" for line in draft.not_understood]
@@ -112,8 +111,6 @@ def _claim_of(number: int, one: FoundStatistic) -> str:
         f"  - id: S{number:03d}",
         f"    location: {one.place}",
         f"    claim: {raw}",
-        "    needs: the paper's own data",
-        "    corpora: {missing: it is about the paper's own data}",
         "    published:",
         "      checks:",
     ]
@@ -207,8 +204,6 @@ def _table_claim(
     yield "  - id: T001"
     yield f"    location: {name}"
     yield f"    claim: {of.capitalize()} of {len(body)} rows."
-    yield "    needs: the paper's own data"
-    yield "    corpora: {missing: it is about the paper's own data}"
     yield "    published:"
     unread = [
         h

@@ -8,13 +8,13 @@ construction`; else it is `not testable`, with what is missing. A simulated corp
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
 import pandas as pd
 
+from signkin.audit import at_n, corpus_checks, uncertain_checks
 from signkin.audit import checks as checks_on_print
-from signkin.audit import corpus_checks, uncertain_checks
 from signkin.audit.findings import (
     BY_CONSTRUCTION,
     CONSISTENT,
@@ -28,7 +28,7 @@ from signkin.audit.findings import (
     Finding,
     unusable,
 )
-from signkin.audit.paper import Check, Claim, Paper
+from signkin.audit.paper import Check, Claim, Paper, Reading
 from signkin.audit.readings import under_readings
 from signkin.audit.registry import CORPUS, PUBLISHED, Evidence, Missing, OnCorpus, OnPrint, run
 from signkin.errors import SignkinError
@@ -37,8 +37,8 @@ from signkin.tables import TABLES
 PRINT = "published numbers"
 SIMULATED, REAL = "simulated", "real"
 __all__ = [
-    "CORPUS", "PUBLISHED", "Evidence", "Ledger", "audit", "checks_on_print", "corpus_checks",
-    "uncertain_checks",
+    "CORPUS", "PUBLISHED", "Evidence", "Ledger", "at_n", "audit", "checks_on_print",
+    "corpus_checks", "uncertain_checks",
 ]  # fmt: skip
 
 
@@ -86,11 +86,16 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
     for paper in papers:
         faults += [str(fault) for fault in paper.faults]
         for claim in paper.claims:
-            for evidence in (None, *corpora):
+            for evidence in (None, *(corpora if paper.study else ())):
                 done = _run(paper, claim, evidence)
                 verdict, note = _verdict(claim, evidence, done)
+                printed = ""
                 if evidence is not None:
+                    plain = verdict
                     verdict, note = _no_sharper(paper, claim, evidence, done, verdict, note)
+                    verdict, note, printed = _as_printed(
+                        paper, claim, evidence, plain, verdict, note
+                    )
                 lead = {
                     "paper": paper.folder.name,
                     "id": claim.id,
@@ -99,7 +104,8 @@ def audit(papers: Iterable[Paper], corpora: Iterable[Evidence] = ()) -> Ledger:
                     "evidence_kind": PRINT if evidence is None
                     else SIMULATED if evidence.simulated else REAL,
                 }  # fmt: skip
-                claims.append(_claim_row(lead, claim, done, verdict, note))
+                claims.append({**_claim_row(lead, claim, done, verdict, note),
+                               "as_printed": printed})  # fmt: skip
                 checks += [row for d in done for row in _check_rows(lead, d)]
                 faults += [f.why for d in done for f in d.findings if f.fault]
     details = pd.DataFrame(checks)
@@ -137,8 +143,11 @@ def _run(paper: Paper, claim: Claim, evidence: Evidence | None) -> list[_Done]:
     if evidence is None:
         on_print = OnPrint(paper, claim)
         return [_Done(check, _unless_bad(check, on_print)) for check in claim.published]
-    on_corpus = OnCorpus(paper, claim, evidence)
-    out = []
+    return _run_on(claim, OnCorpus(paper, claim, evidence))
+
+
+def _run_on(claim: Claim, on_corpus: OnCorpus) -> list[_Done]:
+    evidence, out = on_corpus.evidence, []
     kind = SIMULATED if evidence.simulated else REAL
     for check in claim.corpora:
         if check.only and check.only != kind:
@@ -173,7 +182,9 @@ def _verdict(claim: Claim, evidence: Evidence | None, done: Sequence[_Done]) -> 
         return bad, "; ".join(t for t, d in zip(told, done, strict=True) if d.verdict == bad)
     open_ = [(t, d) for t, d in zip(told, done, strict=True) if d.verdict == UNDECIDABLE]
     if all(d.verdict == UNDECIDABLE for d in done) or any(d.check.decisive for _, d in open_):
-        missing = claim.published_missing if evidence is None else f"needs {claim.needs}"
+        missing = claim.published_missing
+        if evidence is not None and claim.needs:
+            missing = f"needs {claim.needs}"
         words = list(dict.fromkeys(t for t, _ in open_))
         if missing and missing not in words:
             words.append(missing)
@@ -212,6 +223,50 @@ def _no_sharper(
             return DEPENDS, f"{open_}; under our settings: {verdict}, {note}"
         note = f"{note}; {open_}"
     return verdict, note
+
+
+def _as_printed(
+    paper: Paper, claim: Claim, evidence: Evidence, plain: str, verdict: str, note: str
+) -> tuple[str, str, str]:
+    """Return verdict and note with what the claim is without the rules that we add to the print.
+
+    plain: the verdict before readings of what is not printed are looked at. Where a reading as
+    printed says something else, from the same recordings, the claim depends on our rule. Also
+    returns what each reading says, as text.
+    """
+    made = verdict == BY_CONSTRUCTION
+    ours, word = (HOLDS, verdict) if made else (plain, plain)
+    if ours == NOT_TESTABLE:
+        return verdict, note, ""
+    told, apart = [], []
+    for reading in paper.readings:
+        if claim.id not in reading.claims:
+            continue
+        found, why = _read_so(paper, claim, evidence, reading, reading.where)
+        same = {ours, NOT_TESTABLE}
+        if reading.ours:
+            same.add(_read_so(paper, claim, evidence, reading, reading.ours)[0])
+        told.append(f"{reading.name}: {found}")
+        if found not in same:
+            apart.append(
+                f"with our rule ({reading.adds}) {word}, "
+                f"as printed ({reading.printed}) {found}: {why}"
+            )
+    printed = "; ".join(told)
+    if apart:
+        return DEPENDS, "; ".join([*apart, note]), printed
+    return verdict, f"{note}; as printed, {printed}" if told else note, printed
+
+
+def _read_so(
+    paper: Paper, claim: Claim, evidence: Evidence, reading: Reading, where: str
+) -> tuple[str, str]:
+    """Return the verdict of a claim's checks on the tables of a reading, and why."""
+    if reading.checks is not None:
+        kept = [claim.corpora[i - 1] for i in reading.checks]
+        claim = replace(claim, corpora=tuple(replace(check, beside=False) for check in kept))
+    context = OnCorpus(paper, claim, evidence, reading.tables, where)
+    return _verdict(claim, evidence, _run_on(claim, context))
 
 
 def _told(done: _Done) -> str:

@@ -12,6 +12,7 @@ from signkin.audit.claims_file import GUIDE, MOST_BYTES, read_claims
 from signkin.errors import SignkinError, listed
 from signkin.text_file import text_of
 
+PRINT_ALONE = "it is about the paper's own data"
 OWN = (
     "check",
     "reads",
@@ -99,8 +100,32 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Reading:
+    """What is printed where a rule of ours adds to it: the same checks on other tables.
+
+    adds: the rule, as config.yaml has it. printed: what stands there instead. claims: those
+    that the rule can move. tables: table -> the one that was made without the rule. where: its
+    rows. ours: the rows made with the rule from the same recordings, so that both readings have
+    the same n. checks: of the claim (from 1), which then count even if they stand beside it.
+    """
+
+    name: str
+    adds: str
+    printed: str
+    claims: tuple[str, ...]
+    tables: Mapping[str, str]
+    where: str
+    ours: str
+    line: int
+    checks: tuple[int, ...] | None = None
+
+
+@dataclass(frozen=True)
 class Paper:
-    """A paper with its claims. `study`: the folder of its results, `results/<study>`."""
+    """A paper with its claims.
+
+    study: the folder of its results, `results/<study>`; without one the print alone is audited.
+    """
 
     folder: Path
     title: str
@@ -109,6 +134,7 @@ class Paper:
     curves: tuple[Curve, ...]
     tables: dict[str, list[PrintedRow]] = field(default_factory=dict)
     faults: tuple[SignkinError, ...] = ()  # claims that cannot be used, and are left out
+    readings: tuple[Reading, ...] = ()  # without what our rules add to the print
 
     @property
     def file(self) -> Path:
@@ -199,8 +225,31 @@ def read_paper(folder: str | Path) -> Paper:
                 file=path, place=f"line {curve.line}",
                 expected=f"1 to {sizes[curve.claim]}, the claim's checks on corpora",
             )  # fmt: skip
-    return Paper(folder, content["paper"], content["study"], claims, curves,
-                 faults=tuple(file.faults))  # fmt: skip
+    readings = tuple(_readings(content, lines, path, {} if file.faults else sizes))
+    return Paper(folder, content["paper"], content.get("study", ""), claims, curves,
+                 faults=tuple(file.faults), readings=readings)  # fmt: skip
+
+
+def _readings(
+    content: Mapping[str, Any], lines: Mapping[tuple[Any, ...], int], path: Path,
+    sizes: Mapping[str, int],
+) -> Iterator[Reading]:  # fmt: skip
+    """Yield the readings as printed. sizes: claim -> its checks on corpora; empty: any claim."""
+    for i, r in enumerate(content.get("readings", [])):
+        line = lines[("readings", i)]
+        for claim in r["claims"] if sizes else ():
+            highest = max(r.get("checks", (0,)))
+            if claim not in sizes or highest > sizes[claim]:
+                found = f"check {highest} of claim {claim}" if claim in sizes else f"claim {claim}"
+                raise SignkinError(
+                    f"the reading {r['name']!r} speaks of {found}, which is not there",
+                    file=path, place=f"line {line}", expected=listed(sizes, 40),
+                )  # fmt: skip
+        yield Reading(
+            name=r["name"], adds=r["adds"], printed=r["printed"], claims=tuple(r["claims"]),
+            tables=r["tables"], where=r["where"], ours=r.get("ours", ""), line=line,
+            checks=tuple(r["checks"]) if "checks" in r else None,
+        )  # fmt: skip
 
 
 def _claims(
@@ -220,7 +269,7 @@ def _claims(
                     beside=c.get("beside", False),
                     line=lines[("claims", i, side, "checks", j)],
                 )
-                for j, c in enumerate(claim[side].get("checks", []))
+                for j, c in enumerate(claim.get(side, {}).get("checks", []))
             )
         yield Claim(
             id=claim["id"],
@@ -230,8 +279,8 @@ def _claims(
             published=checks["published"],
             published_missing=claim["published"].get("missing", ""),
             corpora=checks["corpora"],
-            corpora_missing=claim["corpora"].get("missing", ""),
-            needs=claim["needs"],
+            corpora_missing=claim.get("corpora", {}).get("missing", PRINT_ALONE),
+            needs=claim.get("needs", ""),
             line=lines[("claims", i)],
             made_with_print=tuple(claim.get("by_construction", {}).get("corpora", ())),
             made_why=claim.get("by_construction", {}).get("why", ""),

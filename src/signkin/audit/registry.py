@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, get_type_hints
 
 import pandas as pd
 
+from signkin.audit.expressions import evaluate
 from signkin.audit.findings import Finding
 from signkin.audit.paper import Check, Claim, Paper
 from signkin.audit.rounding import Interval, allowed, exactly, is_number
@@ -101,9 +102,20 @@ class OnCorpus:
     paper: Paper
     claim: Claim
     evidence: Evidence
+    swapped: Mapping[str, str] = field(default_factory=dict)  # table -> one read in its place
+    where: str = ""  # the rows of such a table
 
     def table(self, name: str) -> pd.DataFrame:
         """Return a result table; raises Missing where the corpus has none."""
+        if name in self.swapped:
+            frame = replace(self, swapped={}).table(self.swapped[name])
+            try:
+                frame = frame[evaluate(self.where, {str(c): frame[c] for c in frame.columns})]
+            except SignkinError as error:
+                raise Missing(f"{self.swapped[name]}.csv: {error.found}") from None
+            if frame.empty:
+                raise Missing(f"{self.swapped[name]}.csv has no row with {self.where}")
+            return frame
         path = self.evidence.files.get(name)
         if path is None and not any(_writes(t.path, name) for t in TABLES.values()):
             raise Missing(f"no table {name}.csv, and signkin writes none of this name")
@@ -116,7 +128,7 @@ class OnCorpus:
 
     def source(self, name: str) -> str:
         """Return the file of a table."""
-        path = self.evidence.files.get(name)
+        path = self.evidence.files.get(self.swapped.get(name, name))
         if path is None:
             return ""
         return f"results/{path.relative_to(self.evidence.results).as_posix()}"

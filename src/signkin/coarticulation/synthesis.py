@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
-from signkin.joints import HANDS
+from signkin.joints import HANDS, wrists_of
 from signkin.kinematics.rotations import linear, local_pose, slerp, unbroken, world_pose
 from signkin.recording import Recording
 
@@ -161,7 +161,7 @@ def ramp(n: int) -> NDArray[np.float64]:
 
 def idle_frame(recording: Recording) -> int:
     """Return the frame of a recording's idle posture: where the wrists hang lowest together."""
-    height = sum(recording.track(f"{hand}_wrist")[:, 2] for hand in HANDS)
+    height = sum(recording.track(wrist)[:, 2] for wrist in wrists_of(recording.joints))
     if np.isnan(height).all():
         return 0
     return int(np.nanargmin(height))

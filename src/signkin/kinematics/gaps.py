@@ -14,6 +14,7 @@ import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.joints import wrists_of
 from signkin.recording import Recording
 
 
@@ -54,16 +55,18 @@ def longest_stretch_s(gap: NDArray[np.bool_], rate_hz: float) -> float:
 def cut_at_gaps(
     recording: Recording,
     longest_gap_s: float,
-    joints: Sequence[str] = ("right_wrist", "left_wrist"),
+    joints: Sequence[str] | None = None,
     shortest_s: float = 0.5,
 ) -> list[Recording]:
     """Return the pieces of a recording between gaps of its joints longer than `longest_gap_s`.
 
-    A frame where any of the joints is missing is a gap; shorter gaps stay in their piece. Pieces
-    shorter than `shortest_s` are left out. Each is named `<name>-<number>` from 1, and notes where
-    it starts. A recording that has no such gap is returned as it is; none left is an error.
+    joints: the wrists, if not told. A frame where any of them is missing is a gap; shorter gaps
+    stay in their piece. Pieces shorter than `shortest_s` are left out. Each is named
+    `<name>-<number>` from 1, and notes where it starts. A recording that has no such gap is
+    returned as it is; none left is an error.
     """
-    tracks = np.concatenate([recording.track(joint) for joint in joints], axis=1)
+    chosen = joints or wrists_of(recording.joints)
+    tracks = np.concatenate([recording.track(joint) for joint in chosen], axis=1)
     gap = np.asarray(np.isnan(tracks).any(axis=1))
     rate = recording.rate_hz
     lost = np.zeros(recording.frames, dtype=bool)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.joints import wrists_of
 from signkin.recording import Recording
 
 ROBUST = 1.4826  # standard deviation of a normal distribution by its median absolute deviation
@@ -35,15 +36,14 @@ class Noise:
     correlation: float
 
 
-def measure_noise(
-    recording: Recording, joints: Sequence[str] = ("right_wrist", "left_wrist")
-) -> Noise:
-    """Return the noise of joints of a recording, the median over them.
+def measure_noise(recording: Recording, joints: Sequence[str] | None = None) -> Noise:
+    """Return the noise of joints of a recording, the median over them; else that of its wrists.
 
     Raises SignkinError where there are fewer than 30 third differences, or most of them are 0
     (positions held for several frames, or simulated without noise).
     """
-    found = [axis_noise(recording.track(joint)) for joint in joints]
+    chosen = wrists_of(recording.joints) if joints is None else joints
+    found = [axis_noise(recording.track(joint)) for joint in chosen]
     axes = np.median([sd for sd, _ in found], axis=0)
     there = axes[axes > 0]
     if not there.size:

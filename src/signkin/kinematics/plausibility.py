@@ -161,19 +161,18 @@ def _at_rest(own: Finding, other: Finding) -> Finding:
 
 def _swap_finding(recording: Recording) -> Finding:
     """Count frames at which right and left wrist seem to change places (tracker's confusion)."""
-    right, left = recording.track("right_wrist"), recording.track("left_wrist")
+    check, limit = "frames at which the hands swap", Limit(0, 0, "frames")
+    wrists = ("right_wrist", "left_wrist")
+    if not set(wrists) <= set(recording.joints):
+        return _untestable(check, limit, recording, wrists)
+    right, left = (recording.track(joint) for joint in wrists)
     same = _step(right[1:], right[:-1]) + _step(left[1:], left[:-1])
     swapped = _step(right[1:], left[:-1]) + _step(left[1:], right[:-1])
     apart = _step(right[1:], left[1:])
     with np.errstate(invalid="ignore"):
         jumps = (swapped < 0.3 * same) & (same > apart)
     count = int(np.count_nonzero(jumps))
-    return _finding(
-        "frames at which the hands swap",
-        count,
-        Limit(0, 0, "frames"),
-        "the tracker may have mixed up the sides there",
-    )
+    return _finding(check, count, limit, "the tracker may have mixed up the sides there")
 
 
 def _step(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -31,6 +31,7 @@ def audit_page(
 
     wrists: corpus -> its table `one_wrist`, with both papers' cuts.
     """
+    papers = sorted(papers, key=lambda paper: not paper.study)  # those on print alone come last
     sections = [_guide(), _overview(papers, claims, folder)]
     for paper in papers:
         sections.append(_claims(paper, claims, checks, folder))
@@ -209,7 +210,7 @@ def _claim(
     caption = f"Section {claim.location}." if claim.location[0].isdigit() else f"{claim.location}."
     printed = ", ".join(f"{name} {text}" for name, text in claim.printed.items())
     caption += f" Printed: {printed}." if printed else ""
-    caption += f" A corpus needs: {claim.needs}."
+    caption += f" A corpus needs: {claim.needs}." if claim.needs else ""
     return _view(claim.id, claim.claim, caption, rows, columns, folder)
 
 

@@ -16,6 +16,7 @@ from signkin.audit.findings import CONSISTENT, INCONSISTENT
 from signkin.audit.ledger import PRINT, Ledger
 from signkin.audit.paper import Claim, Paper, read_paper
 from signkin.errors import SignkinError
+from signkin.pages.audit_samples import sample_views
 from signkin.pages.ledger import run_ledger, told
 from signkin.report.page import FigureView, Page, Section, TableView, render
 from signkin.tables import write_table
@@ -204,10 +205,10 @@ def _guide() -> Section:
 
 
 def _claims(paper: Paper, ledger: Ledger, folder: Path) -> Section:
-    views: list[TableView | FigureView] = [
-        _claim(claim, ledger.details[ledger.details["id"] == claim.id], folder)
-        for claim in paper.claims
-    ]
+    views: list[TableView | FigureView] = []
+    for claim in paper.claims:
+        rows = ledger.details[ledger.details["id"] == claim.id]
+        views += [_claim(claim, rows, folder), *sample_views(claim.id, rows, folder)]
     return Section("claims", "Claim by claim", exhibits=views)
 
 

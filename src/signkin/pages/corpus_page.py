@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -23,10 +24,13 @@ from signkin.pages.corpus_views import (
     todo_view,
 )
 from signkin.pages.sources import Sources
+from signkin.pages.unavailable import unavailable_lines
 from signkin.pages.warnings import groups
+from signkin.report.attempts import CANNOT
 from signkin.report.page import Page, Section
 from signkin.studies.naert2017.report import left_out_views, refinement_views, sign_types_view
 from signkin.tables import read_table, write_table
+from signkin.unavailable import rows_of
 
 
 @dataclass(frozen=True)
@@ -98,10 +102,14 @@ class Owner:
     def write(self, folder: Path) -> dict[str, Path]:
         """Write the tables of the page into a folder; returns what -> file."""
         files = {}
-        for what, kind, frame in (
-            ("recordings", "corpus_overview", self.overview), ("todo", "corpus_todo", self.todo),
-            ("durations", "corpus_durations", self.durations), ("tags", "corpus_tags", self.tags),
+        for what, kind in (
+            ("recordings", "corpus_overview"), ("todo", "corpus_todo"),
+            ("durations", "corpus_durations"), ("tags", "corpus_tags"),
         ):  # fmt: skip
+            try:
+                frame = getattr(self, {"recordings": "overview"}.get(what, what))
+            except CANNOT:  # what it is made of is not available
+                frame = tables.empty(kind)
             if frame is not None:
                 files[what] = folder / f"{self.name}_{what}.csv"
                 write_table(frame[tables.TABLES[kind].names()], files[what], kind)
@@ -113,12 +121,15 @@ def corpus_page(owner: Owner, files: dict[str, Path], site: list[tuple[str, Path
     name = owner.name
     corpus = owner.sources.corpora[name]
     sections = [
-        _short(owner),
-        _todo(owner, files),
-        _recordings(owner, files),
+        _attempted("short", "In short", _short, owner),
+        _attempted("todo", "To work through", _todo, owner, files),
+        _attempted("recordings", "Recordings", _recordings, owner, files),
     ]
     if owner.tagged:
-        sections += [_durations(owner, files), _tags(owner, files)]
+        sections += [
+            _attempted("durations", "Durations of transitions", _durations, owner, files),
+            _attempted("tags", "Quality of the tags", _tags, owner, files),
+        ]
     else:
         sections.append(Section("speed", "Wrist speed", exhibits=(speed_view(owner),)))
     sections.append(Section("lacking", "What is not available, and why", text=_lacking(owner)))
@@ -133,6 +144,14 @@ def corpus_page(owner: Owner, files: dict[str, Path], site: list[tuple[str, Path
         docs=owner.sources.docs,
         ratings=name,
     )
+
+
+def _attempted(anchor: str, title: str, make: Callable[..., Section], *given: Any) -> Section:
+    """Return a section, or one that points to what is not available where it cannot be made."""
+    try:
+        return make(*given)
+    except CANNOT:
+        return Section(anchor, title, text=("Not available; see below what lacks, and why.",))
 
 
 def _short(owner: Owner) -> Section:
@@ -270,6 +289,8 @@ def _lacking(owner: Owner) -> list[str]:
     pages = owner.sources.home / "recordings" / owner.name
     if not pages.is_dir():
         out.append("No page of each recording was made in this run, so rows have no excerpt.")
+    rows = rows_of(owner.sources.results / owner.name / "not_available")
+    out += unavailable_lines(rows)
     return out or ["All analyses could be made."]
 
 

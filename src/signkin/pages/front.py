@@ -118,10 +118,13 @@ def _row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:
     if not corpus.tagged:
         signs = len(about) if corpus.single_signs else None
         return {**row, "signs": signs, "transitions": None, "mean_s": None, "sd_s": None}
-    everything = sources.tagged_table(name, "table2").set_index("type").loc["all"]
+    table2 = sources.tagged_table(name, "table2").set_index("type")
+    row["signs"] = int(about["signs"].sum())
+    if "all" not in table2.index:  # transitions are not available
+        return {**row, "transitions": None, "mean_s": None, "sd_s": None}
+    everything = table2.loc["all"]
     return {
         **row,
-        "signs": int(about["signs"].sum()),
         "transitions": int(everything["n"]),
         "mean_s": float(everything["mean_s"]),
         "sd_s": float(everything["sd_s"]),

@@ -117,8 +117,12 @@ def _printed(sources: Sources) -> Iterator[Section]:
 
 
 def _found(sources: Sources, name: str) -> dict[str, float]:
-    whole = sources.tagged_table(name, "table2").set_index("type").loc["all"]
-    out = {"mean_duration": float(whole["mean_s"]), "sd_duration": float(whole["sd_s"])}
+    whole = sources.tagged_table(name, "table2").set_index("type")
+    out: dict[str, float] = {}
+    if "all" in whole.index:
+        everything = whole.loc["all"]
+        out |= {"mean_duration": float(everything["mean_s"]),
+                "sd_duration": float(everything["sd_s"])}  # fmt: skip
     points = sources.tagged_table(name, "transitions")
     kept = points[
         (points["segmentation"] == "manual") & (points["hand"] == "both")
@@ -130,5 +134,6 @@ def _found(sources: Sources, name: str) -> dict[str, float]:
         key = str(row.coefficient).partition("_")[0]
         out[f"theta_{key}"] = float(row.fitted)
     models = sources.tagged_table(name, "duration_models").set_index(["model", "evaluation"])
-    out["mean_error"] = float(models.loc[("SURFACE", "in_sample"), "mean_error_s"])
+    if ("SURFACE", "in_sample") in models.index:
+        out["mean_error"] = float(models.loc[("SURFACE", "in_sample"), "mean_error_s"])
     return out

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import signkin
@@ -19,8 +21,11 @@ from signkin.pages.papers import (
     one_wrist_page,
 )
 from signkin.pages.sources import Sources
+from signkin.pages.warnings import groups
+from signkin.report.attempts import CANNOT
 from signkin.report.images import Images
-from signkin.report.page import Page, render
+from signkin.report.page import Page, Section, render
+from signkin.unavailable import reason_of
 
 FRONT = "Front page"
 Maker = Callable[[Sources, list[tuple[str, Path]]], Page]
@@ -61,6 +66,24 @@ PAGES: dict[str, Maker] = {
 }  # fmt: skip
 
 
+def _attempted(
+    name: str, sources: Sources, site: list[tuple[str, Path]], make: Callable[[], Page]
+) -> Page:
+    """Return a page, or one that says that it is not available: the others are written."""
+    try:
+        return make()
+    except CANNOT as error:
+        traceback.print_exception(error)  # in the log of the job
+        sections = [
+            Section("first", "What to look at first", groups=groups(sources)),
+            Section("lacking", "Not available", text=(f"This page: {reason_of(error, 'report')}",)),
+        ]
+        return Page(
+            title=name, lead=(), sections=sections, version=signkin.__version__, site=site,
+            here=name, docs=sources.docs,
+        )  # fmt: skip
+
+
 def write_site(sources: Sources, commit: str) -> None:
     """Write all pages below `sources.home`, with their tables and figures beside them."""
     site = site_of(sources)
@@ -68,12 +91,16 @@ def write_site(sources: Sources, commit: str) -> None:
     images = Images(sources.home / "images", sources.results)
     for folder in ("corpora", "papers", "images"):
         (sources.home / folder).mkdir(parents=True, exist_ok=True)
-    pages = {name: make(sources, site) for name, make in PAGES.items()}
+    pages = {
+        name: _attempted(name, sources, site, partial(make, sources, site))
+        for name, make in PAGES.items()
+    }
     data = write_data_files(sources, sources.home / "data_files.csv")
     pages[PROVENANCE] = origins_page(sources, commit, data, site)
     for name in sources.corpora:
         owner = Owner(sources, name)
-        pages[name] = corpus_page(owner, owner.write(files[name].parent), site)
+        written = owner.write(files[name].parent)
+        pages[name] = _attempted(name, sources, site, partial(corpus_page, owner, written, site))
     for name, page in pages.items():
         file = files[name]
         file.write_text(render(page, file.parent, images), encoding="utf-8")

@@ -6,8 +6,10 @@ from collections.abc import Iterator
 
 from signkin.errors import listed
 from signkin.pages.sources import Sources
+from signkin.pages.unavailable import unavailable_lines
 from signkin.report.page import Group
 from signkin.studies.naert2017.report import unused_glosses
+from signkin.unavailable import rows_of
 
 MOST_LINES = 200  # of a group; the tables have all
 
@@ -17,6 +19,7 @@ def groups(sources: Sources, *corpora: str) -> list[Group]:
     names = corpora or tuple(sources.corpora)
     out = [] if corpora else list(_missing(sources))
     out += _left_out(sources, names)
+    out += _unavailable(sources, names)
     out += _implausible(sources, names)
     out += _glosses(sources, names)
     out += _tags(sources, names)
@@ -55,6 +58,15 @@ def _left_out(sources: Sources, names: tuple[str, ...]) -> Iterator[Group]:
     told = ", ".join(f"{name}: {n}" for name, n in where.items() if n)
     many = counted(len(lines), "recording is", "recordings are")
     yield from _group(f"{many} left out ({told})", lines)
+
+
+def _unavailable(sources: Sources, names: tuple[str, ...]) -> Iterator[Group]:
+    lines, where = [], []
+    for name in names:
+        rows = rows_of(sources.results / name / "not_available")
+        lines += [f"{name}: {line}" for line in unavailable_lines(rows)]
+        where += [name] if len(rows) else []
+    yield from _group(f"Analyses, or parts of them, not available ({listed(where, 20)})", lines)
 
 
 def _implausible(sources: Sources, names: tuple[str, ...]) -> Iterator[Group]:

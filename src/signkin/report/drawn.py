@@ -15,17 +15,23 @@ from signkin import exhibits, tables
 from signkin.errors import SignkinError, listed
 from signkin.exhibits import Exhibit
 from signkin.figures.style import save
+from signkin.job import Work
+from signkin.unavailable import SENTENCE
 
 Source = TypeVar("Source")
 
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """A figure with the numbers in it and the facts its caption tells."""
+    """A figure with the numbers in it and the facts its caption tells.
 
-    figure: Figure
+    A figure that cannot be drawn is None, with the error.
+    """
+
+    figure: Figure | None
     data: pd.DataFrame
     caption: str
+    error: Exception | None = None
 
 
 def drawings(
@@ -33,7 +39,8 @@ def drawings(
 ) -> dict[str, Drawn]:
     """Draw the figures of a list: stem -> figure.
 
-    known: stem -> what draws it from the source. A figure that nothing draws is an error.
+    known: stem -> what draws it from the source. A figure that nothing draws is an error; one that
+    cannot be drawn of this source does not stop the others.
     """
     out = {}
     for exhibit in listing:
@@ -44,7 +51,10 @@ def drawings(
                 place=f"group {exhibit.group}",
                 expected=listed(known),
             )
-        out[exhibit.stem] = known[exhibit.stem](source)
+        try:
+            out[exhibit.stem] = known[exhibit.stem](source)
+        except Exception as error:
+            out[exhibit.stem] = Drawn(None, pd.DataFrame(), "", error)
     return out
 
 
@@ -54,10 +64,12 @@ def write_figures(
     folder: str | Path,
     captions: str | Path,
     unit: str,
+    work: Work | None = None,
 ) -> None:
     """Write figures with their numbers below `folder`, and all captions as JSON.
 
     drawn: stem -> figure; exactly what is listed. unit: of the corpus, for the tables' columns.
+    work: the job, which notes the figures that could not be drawn; without it, they are errors.
     """
     wanted = {exhibit.stem: exhibit for exhibit in listing}
     if set(wanted) != set(drawn):
@@ -66,9 +78,16 @@ def write_figures(
             file=exhibits.FILE,
             expected="a drawing for each figure of the list",
         )
-    for stem, exhibit in wanted.items():
-        base = Path(folder) / stem
-        save(drawn[stem].figure, base.with_suffix(".svg"), base.with_suffix(".pdf"))
-        tables.write_table(drawn[stem].data, base.with_suffix(".csv"), exhibit.table, unit)
     told = {stem: drawn[stem].caption for stem in wanted}
+    for stem, exhibit in wanted.items():
+        base, one = Path(folder) / stem, drawn[stem]
+        if one.figure is None:
+            why = one.error or SignkinError("not drawn", place=stem)
+            if work is None:
+                raise why
+            files = (base.with_suffix(suffix) for suffix in exhibits.SUFFIXES)
+            told[stem] = SENTENCE.format(work.lacks(stem, why, *files, kind=exhibit.table))
+            continue
+        save(one.figure, base.with_suffix(".svg"), base.with_suffix(".pdf"))
+        tables.write_table(one.data, base.with_suffix(".csv"), exhibit.table, unit)
     Path(captions).write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

@@ -35,10 +35,19 @@ def record(outputs: Iterable[str | Path], state: Path = STATE) -> None:
         return
     state.mkdir(parents=True, exist_ok=True)
     # One file a job, replaced in one step: jobs end at the same time, and may be killed.
-    name = hashlib.sha256(min(hashes).encode()).hexdigest()[:24]
-    unfinished = state / f"{name}.part"
+    kept = state / _name(min(hashes))
+    unfinished = kept.with_suffix(".part")
     unfinished.write_text(json.dumps(hashes, sort_keys=True, indent=0), encoding="utf-8")
-    unfinished.replace(state / f"{name}.json")
+    unfinished.replace(kept)
+
+
+def forget(output: str | Path, state: Path = STATE) -> None:
+    """Forget a file that was recorded by itself and is no longer made."""
+    (state / _name(Path(output).as_posix())).unlink(missing_ok=True)
+
+
+def _name(path: str) -> str:
+    return f"{hashlib.sha256(path.encode()).hexdigest()[:24]}.json"
 
 
 def recorded(state: Path = STATE) -> dict[Path, str]:

@@ -3,6 +3,7 @@
 import sys
 from pathlib import Path
 
+from signkin.settings.corpus_text import corpus_page_text
 from signkin.settings.text import config_text, corpus_schema_text, page_text, schema_text
 
 
@@ -12,6 +13,7 @@ def generated(root: Path) -> dict[Path, str]:
     return {
         root / "config.yaml": config_text(),
         root / "docs" / "configuration.md": page_text(),
+        root / "docs" / "corpus-reference.md": corpus_page_text(),
         schemas / "config.schema.yaml": schema_text(),
         schemas / "corpus.schema.yaml": corpus_schema_text(),
     }

@@ -14,6 +14,7 @@ Seconds = Annotated[float, Field(ge=0)]
 Text = Annotated[str, Field(min_length=1)]
 Columns = Annotated[tuple[Text, ...], Field(min_length=2, max_length=3, strict=False)]
 Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+WebAddress = Annotated[str, Field(pattern="^https?://[^ ]+$")]
 
 
 MotionFormat = Literal[
@@ -51,8 +52,8 @@ class Motion(Section):
     up: Axis | None = key(None, "The file's axis that points up.")
     right: Axis | None = key(None, "The file's axis that points to the signer's right.")
     joints: dict[str, Text | Columns] = key(
-        text="Canonical joint name -> name in the file (csv: list of columns); both wrists at "
-        "least.", min_length=2,
+        text="Canonical joint name -> name in the file (csv: list of columns); both wrists, "
+        "or the one of a one-handed recording, at least.", min_length=1,
     )  # fmt: skip
     orientations: Literal["recorded", "limb_frames", "none"] = key(
         "none", "`recorded` (from the file), `limb_frames` (made from positions) or `none`."
@@ -112,6 +113,12 @@ def _plain_name(name: str) -> str:
     return name
 
 
+def _inside(name: str) -> str:
+    if not name or name.startswith("/") or "\\" in name or ".." in name.split("/"):
+        raise ValueError("the name of a file in the data folder, without ..")
+    return name
+
+
 class CorpusDescription(Section):
     """What a corpus says of itself."""
 
@@ -127,6 +134,9 @@ class CorpusDescription(Section):
         None, "Folder of the recordings below data_dir; the corpus's own name where missing."
     )
     checksums: dict[str, Sha256] = key({}, "SHA-256 of data files by name.")
+    downloads: dict[Annotated[str, AfterValidator(_inside)], WebAddress] = key(
+        {}, "Public address of data files by name, for `make fetch`; each with its checksum."
+    )
     on_error: Literal["stop", "skip"] = key(
         "stop", "`stop`, or `skip`: a recording that fails is left out and listed."
     )
@@ -144,3 +154,9 @@ class CorpusDescription(Section):
     )
     synthesis: CorpusSynthesis = CorpusSynthesis()
     examples: Examples = Examples()
+
+    @model_validator(mode="after")
+    def _verifiable(self) -> CorpusDescription:
+        if without := [name for name in self.downloads if name not in self.checksums]:
+            raise ValueError(f"downloads: {without[0]} has no SHA-256 under checksums")
+        return self

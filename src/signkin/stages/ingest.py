@@ -62,14 +62,18 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
         out.recordings.append(recording)
         out.intervals += intervals
         out.about.append(about)
-    if not out.recordings:
+    return out
+
+
+def refuse_none(corpus: Corpus, excluded: Sequence[dict[str, Any]], left: int) -> None:
+    """Refuse a shard of which no recording is left; its tables are written by then."""
+    if not left:
+        first = excluded[0]["reason"] if excluded else "there was none before"
         raise SignkinError(
-            f"none of {len(entries)} recordings can be used; the first: "
-            f"{out.excluded[0]['reason']}",
+            f"no recording can be used; the first: {first}",
             file=corpus.folder,
             expected="one recording or more",
         )
-    return out
 
 
 def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, Annotation | None]:

@@ -12,7 +12,7 @@ import pandas as pd
 from signkin import tables
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
-from signkin.joints import HANDS
+from signkin.joints import HANDS, hands_of
 from signkin.kinematics.derivatives import speed
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps, longest_stretch_s
@@ -59,12 +59,6 @@ def kinematics(
             continue
         out.frames.append(frame)
         out.minima += [{**start, **row} for row in minima]
-    if not out.frames:
-        raise SignkinError(
-            f"no recording has usable wrists; the first: {out.excluded[0]['reason']}",
-            file=corpus.folder,
-            expected="one recording or more",
-        )
     return out
 
 
@@ -96,7 +90,12 @@ def _wrists(
         "time_s": recording.times_s,
     }
     speeds = {}
+    there = hands_of(recording.joints)
     for hand in HANDS:
+        if hand not in there:  # a one-handed recording: the columns are there, without numbers
+            columns |= {f"{hand}_wrist_{letter}_{unit}": np.nan for letter in "xyz"}
+            columns |= {f"{hand}_speed_{unit}_per_s": np.nan, f"{hand}_filled": False}
+            continue
         filled, was_gap = fill_gaps(recording.track(f"{hand}_wrist"), rate, settings.longest_gap_s)
         _refuse_riddled(recording, hand, filled, settings)
         path = lowpass(filled, rate, **dict(settings.lowpass))

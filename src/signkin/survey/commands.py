@@ -1,4 +1,4 @@
-"""`signkin corpus init`, `check` and `list`."""
+"""`signkin corpus init`, `check`, `list` and `fetch`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,12 @@ import re
 import sys
 from collections import Counter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from signkin.errors import SignkinError
+
+if TYPE_CHECKING:
+    from signkin.settings import Settings
 
 RECORDINGS = 100
 LINES = 12
@@ -18,6 +22,7 @@ EXAMPLES = """examples:
   signkin corpus check mine --data ~/recordings
   signkin corpus check boston104 --data ~/recordings
   signkin corpus check corpora/mine --all
+  signkin corpus fetch mine --data ~/recordings
 """
 
 
@@ -40,7 +45,9 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     first.add_argument("folder", type=Path, help="folder with the motion and the annotations")
     first.add_argument("--name", help="of the corpus (the folder's name)")
     first.add_argument("--into", type=Path, help="folder of its description (corpora/<name>)")
-    for parser in (listing, check):
+    get = what.add_parser("fetch", help="get the files of a corpus that have a public address")
+    get.add_argument("corpus", help="a corpus of this folder")
+    for parser in (listing, check, get):
         parser.add_argument("--data", help="folder of the real recordings (else SIGNKIN_DATA)")
 
 
@@ -49,25 +56,62 @@ def run_corpus(told: argparse.Namespace) -> int:
     try:
         if told.what == "init":
             return init_corpus(told.folder, told.name, told.into)
+        if told.what == "fetch":
+            return fetch_corpus(told.corpus, told.data)
         return list_corpora(told.data) if told.what == "list" else check_corpus(told)
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
         return 1
 
 
+def _settings() -> Settings:
+    """Return config.yaml of the folder that the command is called in; without one, the defaults."""
+    from signkin.settings import Settings, load_settings
+    from signkin.yaml_file import read_yaml
+
+    config = Path("config.yaml")
+    return load_settings(read_yaml(config)) if config.is_file() else Settings()
+
+
+def _own_folder() -> Path:
+    return Path(_settings().corpora_dir)
+
+
 def _corpora_folder() -> Path:
+    """Return where this folder's corpora are described, or those that come with signkin."""
     from signkin.checkout import workflow_home
 
-    own = Path("corpora")
-    return own if own.is_dir() else workflow_home() / "corpora"
+    own = _own_folder()
+    return own if own.is_dir() else workflow_home() / own
+
+
+def _data_dir(told: str | None) -> str | None:
+    """Return the folder of real recordings: as told, else SIGNKIN_DATA, else config.yaml's."""
+    from signkin.corpus import data_dir_of
+
+    return told or data_dir_of(_settings().data_dir)
+
+
+def fetch_corpus(name: str, data: str | None) -> int:
+    """Fetch and verify the files of a corpus."""
+    from signkin.corpus import load_corpora
+    from signkin.survey.fetch import fetch
+
+    corpus = load_corpora(_corpora_folder(), [name])[name]
+    folder = corpus.folder / "data"
+    if home := _data_dir(data):
+        folder = Path(home) / corpus.settings.get("data_folder", corpus.name)
+    fetch(corpus, folder, print)
+    print(f"Cite: {corpus.settings['citation']} (licence: {corpus.settings['licence']})")
+    return 0
 
 
 def list_corpora(data: str | None) -> int:
     """Print a line a corpus."""
-    from signkin.corpus import data_dir_of, data_folder, load_corpora
+    from signkin.corpus import data_folder, load_corpora
 
     for name, corpus in load_corpora(_corpora_folder()).items():
-        there = data_folder(corpus, data or data_dir_of(None), Path("results")) is not None
+        there = data_folder(corpus, _data_dir(data), Path("results")) is not None
         kinds = [
             word
             for word, yes in (
@@ -89,7 +133,7 @@ def init_corpus(folder: Path, name: str | None, into: Path | None) -> int:
     if not folder.is_dir():
         raise SignkinError("there is no such folder", file=folder)
     name = name or re.sub(r"[^A-Za-z0-9._-]+", "-", folder.resolve().name).strip("-.")
-    into = into or Path("corpora") / name
+    into = into or _own_folder() / name
     if (into / "corpus.yaml").exists():
         raise SignkinError(
             "it is there already", file=into / "corpus.yaml", todo="Give another --name or --into."
@@ -107,7 +151,7 @@ def init_corpus(folder: Path, name: str | None, into: Path | None) -> int:
 
 def check_corpus(told: argparse.Namespace) -> int:
     """Look at a corpus, write the page and the tables, print what to do first."""
-    from signkin.corpus import check_files, data_dir_of, data_folder, load_corpora, load_corpus
+    from signkin.corpus import check_files, data_folder, load_corpora, load_corpus
     from signkin.report.page import render
     from signkin.survey.look import look_at
     from signkin.survey.page import look_page
@@ -120,7 +164,7 @@ def check_corpus(told: argparse.Namespace) -> int:
         corpus = load_corpora(_corpora_folder(), [told.corpus])[told.corpus]
     if told.recordings < 1:
         raise SignkinError(f"--recordings {told.recordings}", expected="a whole number from 1")
-    folder = data_folder(corpus, told.data or data_dir_of(None), Path("results"))
+    folder = data_folder(corpus, _data_dir(told.data), Path("results"))
     if folder is None or not folder.is_dir():
         raise SignkinError(
             f"the recordings of {corpus.name} are not there", place="data",

@@ -9,9 +9,9 @@ from signkin.joints import FINGERS, HANDS
 
 # Part -> names without side, prefix, case and signs. The order is that of preference.
 PARTS: dict[str, tuple[str, ...]] = {
-    "shoulder": ("shoulder", "upperarm", "arm", "sho", "humerus"),
+    "shoulder": ("shoulder", "upperarm", "arm", "sho", "fsh", "humerus"),
     "elbow": ("elbow", "forearm", "lowerarm", "elb", "radius"),
-    "wrist": ("wrist", "hand", "wri", "base"),
+    "wrist": ("wrist", "hand", "wri", "base", "iwr", "wre"),
     "clavicle": ("clavicle", "collar", "clav", "shoulderblade"),
     "hip": ("hip", "upleg", "thigh", "femur", "asi"),
     "knee": ("knee", "leg", "shin", "tibia", "kne"),

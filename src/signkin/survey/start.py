@@ -44,6 +44,10 @@ SENTENCE_TIER = re.compile(r"utter|sentence|phrase|satz|énonc|clause|turn", re.
 TRANSLATION_TIER = re.compile(r"transl|übersetz|traduc|english|deutsch|français", re.IGNORECASE)
 TRIED = 3  # files of a format, of which one may be damaged
 RATE_HZ = 100.0  # only to be able to read; asked for
+# What a reader may want to be told, with a value to read by; the order is that of trying.
+GUESSES: dict[str, Any] = {
+    "image_size": [1280, 720], "incomplete": True, "rate_hz": RATE_HZ, "unit": "m",
+}  # fmt: skip
 
 
 @dataclass
@@ -71,19 +75,19 @@ class Start:
 def start(folder: Path, name: str) -> Start:
     """Return the description of the corpus in a folder. Raises SignkinError where no motion is."""
     files = sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith("."))
-    motion, format, sample = _motion(files, folder)
+    motion, format, probe = _motion(files, folder)
+    sample = probe.recording
     columns = table_joints(motion[0]) if format == "csv" else {}
     tags, tag_format = _tags(files, motion)
     out = Start(name)
     out.lines.append(f"# Made by `signkin corpus init {folder}`; lines below ASK want an answer.")
-    out.ask(f"title: {yaml_value(name.replace('-', ' ').replace('_', ' '))}", "a title for reports")
-    out.ask("language: unknown", "which sign language?")
-    out.ask("licence: unknown", "under which licence, and may others have it?")
-    out.ask("citation: unknown", "how to cite it?")
+    title = yaml_value(name.replace("-", " ").replace("_", " "))
+    out.ask(f"title: {title}", "title, language, licence and citation, for reports")
+    out.lines += [f"{key}: unknown" for key in ("language", "licence", "citation")]
     out.lines.append(f"data_folder: {yaml_value(folder.name)}")
     known = joint_map(sample.joints)
     _noise(out, sample, known)
-    _motion_section(out, format, sample, known, columns)
+    _motion_section(out, format, probe, known, columns)
     if tags:
         _tag_section(out, tag_format, list(tags.values()))
     out.recordings = _recordings(folder, motion, tags)
@@ -97,7 +101,7 @@ def start(folder: Path, name: str) -> Start:
     return out
 
 
-def _motion(files: Sequence[Path], folder: Path) -> tuple[list[Path], str, Recording]:
+def _motion(files: Sequence[Path], folder: Path) -> tuple[list[Path], str, Probe]:
     """Return the motion files of the commonest suffix that can be read, their format, and one."""
     counts = Counter(p.suffix.lower() for p in files if p.suffix.lower() in MOTION)
     said: list[str] = []
@@ -117,34 +121,66 @@ def _motion(files: Sequence[Path], folder: Path) -> tuple[list[Path], str, Recor
     )
 
 
-def _probe(path: Path, format: str) -> Recording:
-    """Read a file as it stands: its own axes, its own unit as if it were metres."""
+@dataclass(frozen=True)
+class Probe:
+    """A file as it stands: its own axes, its own unit as if it were metres.
+
+    guessed: what had to be declared to read it, which a person must confirm.
+    """
+
+    recording: Recording
+    guessed: Mapping[str, Any]
+
+
+def _probe(path: Path, format: str) -> Probe:
+    """Read a file, declaring what its reader asks for: a rate, a unit, the image's size."""
     spec: dict[str, Any] = {}
     if format == "csv":
         spec["joints"] = table_joints(path)
     if format == "pose":
-        return _probe_pose(path)
-    for unit in (None, "m", "px"):
-        for rate in (None, RATE_HZ):
-            try:
-                return read_recording(path, format=format, unit=unit, rate_hz=rate, **spec)
-            except SignkinError as error:
-                last = error
-                if error.place not in ("unit", "rate_hz"):
-                    raise
-    raise last
-
-
-def _probe_pose(path: Path) -> Recording:
-    """Read what known trackers write in .pose files, by world or by image landmarks."""
-    hands = [f"{s}_HAND_LANDMARKS.{n}" for s in ("LEFT", "RIGHT") for n in MEDIAPIPE_HAND[1:]]
-    world = [f"POSE_WORLD_LANDMARKS.{name}" for name in MEDIAPIPE_POSE]
+        spec["joints"] = _world_joints()
     try:
-        found = joint_map([*world, *hands])
-        read = read_recording(path, format="pose", joints=found)
-    except SignkinError:
-        return read_recording(path, format="pose")
-    return replace(read, joints=tuple(found[joint] for joint in read.joints))
+        probe = _read_as_asked(path, format, spec)
+    except SignkinError as error:
+        if format != "pose" or error.place != "joints":
+            raise
+        return _read_as_asked(path, format, {})
+    if format == "pose":
+        named = tuple(spec["joints"][joint] for joint in probe.recording.joints)
+        return replace(probe, recording=replace(probe.recording, joints=named))
+    return probe
+
+
+def _read_as_asked(path: Path, format: str, spec: Mapping[str, Any]) -> Probe:
+    guessed: dict[str, Any] = {}
+    while True:
+        try:
+            return Probe(read_recording(path, format=format, **spec, **guessed), guessed)
+        except SignkinError as error:
+            more = _wanted(error, guessed)
+            if not more:
+                raise
+            guessed |= more
+
+
+def _wanted(error: SignkinError, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a reader's error asks for and has not been given yet; empty where it is else."""
+    told = f"{error.place} {error.found} {error.todo}"
+    said = re.search(r"the file says ([0-9.]+) Hz", error.found)
+    if said and given.get("rate_hz") == RATE_HZ:
+        return {"rate_hz": float(said[1])}
+    for name, value in GUESSES.items():
+        if name in told and name not in given:
+            return {name: value}
+    if error.place == "unit" and given.get("unit") == "m":
+        return {"unit": "px"}
+    return {}
+
+
+def _world_joints() -> dict[str, str]:
+    """Return the joints of .pose files with MediaPipe's world landmarks."""
+    hands = [f"{s}_HAND_LANDMARKS.{n}" for s in ("LEFT", "RIGHT") for n in MEDIAPIPE_HAND[1:]]
+    return joint_map([*(f"POSE_WORLD_LANDMARKS.{name}" for name in MEDIAPIPE_POSE), *hands])
 
 
 def table_joints(path: Path) -> dict[str, list[str]]:
@@ -195,29 +231,49 @@ def _noise(out: Start, sample: Recording, known: Mapping[str, str]) -> None:
 
 
 def _motion_section(
-    out: Start, format: str, sample: Recording, known: Mapping[str, str],
+    out: Start, format: str, probe: Probe, known: Mapping[str, str],
     columns: Mapping[str, list[str]],
 ) -> None:  # fmt: skip
+    sample, guessed = probe.recording, probe.guessed
     out.lines += ["motion:", f"  format: {format}"]
     unit, why = _unit(sample, known)
-    if why.startswith("ASK"):
+    if why.startswith("ASK") and "unit" in guessed:
         out.ask(f"  unit: {unit}", f"unit of length{why.removeprefix('ASK')}")
-    elif unit:
+    elif unit == "px" or "unit" in guessed:
         out.lines.append(f"  unit: {unit} # {why}")
-    if sample.rate_hz == RATE_HZ:
-        out.ask(f"  rate_hz: {RATE_HZ:g}", "sampling rate in Hz, if the files do not tell it")
+    if "rate_hz" in guessed:
+        rate = guessed["rate_hz"]
+        question = "sampling rate in Hz, which the files do not tell"
+        if rate != RATE_HZ:
+            question = f"sampling rate in Hz: the files say {rate:g}, which may be rounded"
+        out.ask(f"  rate_hz: {rate:g}", question)
     for key, axis, ground in _axes(sample, known):
         out.lines.append(f"  {key}: {axis} # {ground}")
+    _options(out, guessed)
     missing = [f"{hand}_wrist" for hand in HANDS if f"{hand}_wrist" not in known]
     recorded = sample.orientations is not None
     out.lines.append(f"  orientations: {'recorded' if recorded else 'none'}")
     if missing:
-        out.asked.append(f"which names are {' and '.join(missing)}?")
+        whole = "; leave it out where one hand was recorded" if len(missing) == 1 else ""
+        out.asked.append(f"which names are {' and '.join(missing)}{whole}?")
         out.lines.append(f"  # ASK: which of these are {' and '.join(missing)}?")
         out.lines.append(f"  # {listed(sample.joints, 60)}")
     out.lines.append("  joints:" if known else "  joints: {}")
     for joint, name in known.items():
         out.lines.append(f"    {joint}: {yaml_value(columns.get(name, name))}")
+
+
+def _options(out: Start, guessed: Mapping[str, Any]) -> None:
+    """Write the options of the format that had to be declared."""
+    asked = {
+        "image_size": "size of the video's image in pixels, [width, height]",
+        "incomplete": "the files have fewer frames than they say: is that meant?",
+    }
+    wanted = [name for name in asked if name in guessed]
+    if wanted:
+        out.lines.append("  options:")
+    for name in wanted:
+        out.ask(f"    {name}: {yaml_value(guessed[name])}", asked[name])
 
 
 def _unit(sample: Recording, known: Mapping[str, str]) -> tuple[str, str]:
@@ -241,18 +297,21 @@ def _unit(sample: Recording, known: Mapping[str, str]) -> tuple[str, str]:
 
 def _axes(sample: Recording, known: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
     """Yield up and right, by where head and shoulders are."""
-    tops = [known[j] for j in ("head", "nose", "neck") if j in known]
+    seen = np.array([1, 1, 0 if sample.unit == "px" else 1])  # an image's depth is an estimate
+    tops = [known[j] for j in ("head", "nose", "neck", "right_shoulder") if j in known]
     bottoms = [known[j] for j in ("pelvis", "right_hip", "right_knee") if j in known]
     if tops and bottoms:
-        axis = _axis(sample.track(tops[0]) - sample.track(bottoms[0]))
+        axis = _axis((sample.track(tops[0]) - sample.track(bottoms[0])) * seen)
         yield "up", axis, f"from {bottoms[0]} to {tops[0]}"
     elif tops and "right_wrist" in known:
-        axis = _axis(sample.track(tops[0]) - sample.track(known["right_wrist"]))
+        axis = _axis((sample.track(tops[0]) - sample.track(known["right_wrist"])) * seen)
         yield "up", axis, f"from {known['right_wrist']} to {tops[0]}: hands are mostly lower"
+    elif sample.unit == "px":
+        yield "up", "-y", "images are counted from the top"
     for part in ("shoulder", "hip", "wrist"):
         right, left = (known.get(f"{hand}_{part}") for hand in HANDS)
         if right and left:
-            axis = _axis(sample.track(right) - sample.track(left))
+            axis = _axis((sample.track(right) - sample.track(left)) * seen)
             yield "right", axis, f"from {left} to {right}"
             return
 

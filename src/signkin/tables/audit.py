@@ -30,6 +30,7 @@ TABLES = (
                 "printed number), on corpora; or not testable",
             ),
             text("note", "why, or what is missing"),
+            text("as_printed", "the verdict without each rule of ours that adds to the print"),
             text("source", "tables behind it"),
         ),
     ),

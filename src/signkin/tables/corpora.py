@@ -40,6 +40,18 @@ TABLES = (
         (*LEAD, text("stage", "where it failed"), text("reason", "the error's sentence")),
     ),
     Table(
+        "not_available",
+        "results/<corpus>/not_available/<rule>.csv",
+        "an analysis, or a part of one, that could not be made of this corpus",
+        (
+            text("corpus", "corpus, as its folder is called"),
+            text("analysis", "the rule that makes it"),
+            text("part", "the part of it that lacks; empty where nothing of it could be made"),
+            text("reason", "why, a sentence"),
+            text("files", "its files, which are there and empty, with blanks between"),
+        ),
+    ),
+    Table(
         "intervals",
         "results/<corpus>/intervals.csv",
         "a tagged interval",

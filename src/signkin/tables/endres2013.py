@@ -22,7 +22,9 @@ _COUNTED = (
     Column("without_truth", "", "of these, without a true boundary: in no hit rate"),
 )
 
-TABLES = (
+_READING = text("reading", "as configured, or without which rule of ours")
+
+_OWN = (
     Table(
         "ground_truth",
         "results/endres2013/<corpus>/ground_truth.csv",
@@ -57,7 +59,8 @@ TABLES = (
     ),
     Table(
         "binning_left_out",
-        "results/endres2013/<corpus>/left_out.csv",
+        "results/endres2013/<corpus>/left_out.csv, wrists_left_out.csv, not_cut.csv, "
+        "not_binned.csv",
         "a trajectory that was not binned",
         (*LEAD, _DATASET, text("reason", "why it was left out")),
     ),
@@ -194,7 +197,8 @@ TABLES = (
     ),
     Table(
         "endres_figure",
-        "results/endres2013/<corpus>/fig03.csv to fig07.csv, figA1.csv, fig_one_wrist.csv",
+        "results/endres2013/<corpus>/fig03.csv, fig04.csv, fig05.csv, fig06.csv, fig07.csv, "
+        "figA1.csv, fig_one_wrist.csv",
         "a point drawn in a figure",
         (
             text("corpus", "corpus, as its folder is called"),
@@ -240,6 +244,43 @@ TABLES = (
         ),
     ),
     Table(
+        "recorded_laws",
+        "results/endres2013/<corpus>/recorded_laws.csv",
+        "a segment of a recorded movement, between boundaries of order 3, and its power law (2.3)",
+        (
+            *LEAD,
+            _SINGLE_SIGN,
+            Column("segment", "", "place of the segment, from 1"),
+            Column("start_s", "s", "its start, from that of the movement"),
+            Column("end_s", "s", "its end"),
+            Column("n", "", "samples with a curvature"),
+            Column("beta", "", "exponent by non-linear regression, as in the paper"),
+            Column("log_beta", "", "exponent by the line through the logarithms"),
+            Column("both_beta", "", "exponent by that line with errors in both (Deming)"),
+            Column("r", "", "correlation of the logarithms of speed and curvature"),
+            Column("r_squared", "", "R squared of the non-linear fit (eq. 5)"),
+            NOTE,
+        ),
+    ),
+    Table(
+        "law_pitfalls",
+        "results/endres2013/<corpus>/law_pitfalls.csv",
+        "exponents found on a path of known exponent through the corpus's filter, rate and noise",
+        (
+            text("corpus", "corpus, as its folder is called"),
+            text("path", "ellipse (half axes of 0.10 and 0.05 m), or noise alone"),
+            Column("beta", "", "its exponent; empty for noise alone"),
+            Column("duration_s", "s", "of one turn, from which the exponent is found"),
+            Column("noise_sd", "m or px", "noise before the filter"),
+            text("estimator", "non-linear, logarithms, or errors in both"),
+            Column("found", "", "exponent found, mean over draws"),
+            Column("sd", "", "its SD over draws; empty without noise"),
+            Column("r", "", "correlation of the logarithms, mean over draws"),
+            Column("smallest_difference", "", "of two exponents, told with a power of 0.8"),
+            Column("draws", "", "draws of noise"),
+        ),
+    ),
+    Table(
         "learnt_prior",
         "results/endres2013/<corpus>/learnt_prior.csv",
         "a prior, and how well it predicts the half of the recordings that is held out",
@@ -268,8 +309,8 @@ TABLES = (
         ),
     ),
     Table(
-        "readings",
-        "results/endres2013/<corpus>/readings.csv",
+        "two_priors",
+        "results/endres2013/<corpus>/two_priors.csv",
         "a reading of the prior, a group of trajectories and an order (Fig. 3 to 7)",
         (
             text("corpus", "corpus, as its folder is called"),
@@ -343,4 +384,25 @@ TABLES = (
             NOTE,
         ),
     ),
+)
+
+
+def _as_read(name: str) -> Table:
+    """Return a table of the study once more, with the reading that its rows were made under."""
+    of = next(table for table in _OWN if table.name == name)
+    path = f"results/endres2013/<corpus>/readings_{name}.csv"
+    row = f"{of.row}; under a reading as printed"
+    return Table(f"readings_{name}", path, row, (_READING, *of.columns))
+
+
+_EQUAL = Table(
+    "equal_bins",
+    "results/endres2013/<corpus>/equal_bins.csv",
+    "a recorded trajectory, or its ground truth in as many bins, and a polynomial order",
+    next(table for table in _OWN if table.name == "binning").columns,
+)
+TABLES = (
+    *_OWN,
+    _EQUAL,
+    *map(_as_read, ("binning", "hit_rates", "order_posteriors", "ground_truth")),
 )

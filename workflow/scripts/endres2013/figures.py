@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True) as work:
     from pathlib import Path
 
     from signkin import tables
@@ -22,4 +22,4 @@ with job(snakemake):
         snakemake.params.seed,
     )
     with paper_style():
-        write_figures(draw(sources, listing), listing, captions.parent, captions, corpus.unit)
+        write_figures(draw(sources, listing), listing, captions.parent, captions, corpus.unit, work)

@@ -1,17 +1,17 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from pathlib import Path
 
     from signkin import tables
     from signkin.corpus import load_corpus
     from signkin.figures.style import paper_style, save
-    from signkin.studies.endres2013.figures import readings as beside
+    from signkin.studies.endres2013.figures import two_priors as beside
     from signkin.studies.endres2013.figures.open_choices import drawn
     from signkin.studies.endres2013.learnt import learnt_priors
     from signkin.studies.endres2013.open_choices import chosen_recordings, order_choices
-    from signkin.studies.endres2013.readings import readings
     from signkin.studies.endres2013.single_signs import read_trajectories
+    from signkin.studies.endres2013.two_priors import two_priors
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
@@ -21,8 +21,8 @@ with job(snakemake):
     tables.write_table(table, out.order_choices, "order_choices", corpus.unit)
     cut = read_trajectories(source.trajectories)
     binning = tables.read_table(source.binning, "binning")
-    both = readings(corpus, cut, binning, settings, snakemake.threads)
-    tables.write_table(both, out.readings, "readings", corpus.unit)
+    both = two_priors(corpus, cut, binning, settings, snakemake.threads)
+    tables.write_table(both, out.two_priors, "two_priors", corpus.unit)
     learnt = learnt_priors(corpus, cut, settings, snakemake.threads)
     tables.write_table(learnt, out.learnt_prior, "learnt_prior", corpus.unit)
     with paper_style():

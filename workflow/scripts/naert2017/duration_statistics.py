@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from signkin import tables
     from signkin.studies.naert2017.durations_statistics import statistics
 

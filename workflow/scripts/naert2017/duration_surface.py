@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from signkin import tables
     from signkin.figures.style import paper_style, save
     from signkin.studies.naert2017 import durations_figures, durations_models, durations_surface

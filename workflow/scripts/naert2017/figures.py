@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True) as work:
     from pathlib import Path
 
     import pandas as pd
@@ -28,6 +28,7 @@ with job(snakemake):
     )
     folder = Path(out.captions).parent
     with paper_style():
-        write_figures(draw(measured, listing), listing, folder, out.captions, corpus.unit)
-    corners = diamond_table(corpus.name, measured.transitions, params.settings.transitions)
-    tables.write_table(corners, out.diamond, "diamond")
+        write_figures(draw(measured, listing), listing, folder, out.captions, corpus.unit, work)
+    with work.part("the diamond's corners", out.diamond):
+        corners = diamond_table(corpus.name, measured.transitions, params.settings.transitions)
+        tables.write_table(corners, out.diamond, "diamond")

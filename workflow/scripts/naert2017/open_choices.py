@@ -1,23 +1,27 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from itertools import chain
     from pathlib import Path
 
     from signkin import tables
     from signkin.corpus import load_corpus
     from signkin.io.store import read_recordings
-    from signkin.studies.naert2017.open_choices import claim_choices
+    from signkin.studies.naert2017.interval_chance import interval_chance
+    from signkin.studies.naert2017.open_choices import claim_choices, takes_of
 
-    source = snakemake.input
-    corpus = load_corpus(Path(snakemake.params.corpus))
-    table = claim_choices(
-        corpus,
-        chain.from_iterable(read_recordings(path) for path in source.recordings),
-        tables.read_table(source.intervals, "intervals"),
-        tables.read_table(source.transitions, "transitions"),
-        tables.read_table(source.excluded, "excluded"),
-        snakemake.params.settings,
-        snakemake.params.seed,
-    )
-    tables.write_table(table, snakemake.output.claim_choices, "claim_choices", corpus.unit)
+    source, out, params = snakemake.input, snakemake.output, snakemake.params
+    corpus = load_corpus(Path(params.corpus))
+    given = [
+        tables.read_table(source[name], name) for name in ("intervals", "transitions", "excluded")
+    ]
+
+    def recordings():
+        return chain.from_iterable(read_recordings(path) for path in source.recordings)
+
+    table = claim_choices(corpus, recordings(), *given, params.settings, params.seed)
+    tables.write_table(table, out.claim_choices, "claim_choices", corpus.unit)
+    takes = takes_of(corpus, recordings(), *given, params.settings)
+    draws = params.settings.refinement.draws
+    table = interval_chance(corpus.name, takes, draws, params.seed)
+    tables.write_table(table, out.interval_chance, "interval_chance")

@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True) as work:
     from pathlib import Path
 
     from signkin import tables
@@ -26,4 +26,4 @@ with job(snakemake):
     )
     folder = Path(out.captions).parents[1]
     with paper_style():
-        write_figures(draw(made, listing), listing, folder, out.captions, corpus.unit)
+        write_figures(draw(made, listing), listing, folder, out.captions, corpus.unit, work)

@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from pathlib import Path
 
     import pandas as pd
@@ -12,6 +12,7 @@ with job(snakemake):
     from signkin.studies.naert2017.figures.refinement_quality import draw_quality
     from signkin.studies.naert2017.lexicon import lexicon_use
     from signkin.studies.naert2017.posteriors import boundary_posteriors
+    from signkin.studies.naert2017.readings import plain_boundaries, plain_segmentations
     from signkin.studies.naert2017.refinement import refinement
     from signkin.studies.naert2017.table1 import table1
     from signkin.studies.naert2017.table2 import table2
@@ -51,6 +52,14 @@ with job(snakemake):
         "table2": ("table2", table2(corpus.name, moves, published, settings.transitions)),
         "refinement": ("refinement", quality),
         "tag_chance": ("tag_chance", near),
+        "readings_boundaries": (
+            "readings_boundaries",
+            plain_boundaries(boundaries, settings.refinement),
+        ),
+        "readings_segmentations": (
+            "readings_segmentations",
+            plain_segmentations(moves, boundaries, unit),
+        ),
     }
     for name, (kind, table) in made.items():
         tables.write_table(table, out[name], kind, unit)

@@ -1,5 +1,5 @@
 """The checks on print, a file a subject; importing the package registers them all."""
 
-from signkin.audit.checks import counts, effects, groups, lists, numbers, tables
+from signkin.audit.checks import counts, effects, groups, lists, numbers, samples, tables, wholes
 
-__all__ = ["counts", "effects", "groups", "lists", "numbers", "tables"]
+__all__ = ["counts", "effects", "groups", "lists", "numbers", "samples", "tables", "wholes"]

@@ -11,9 +11,9 @@ import numpy as np
 from scipy import stats
 
 from signkin.audit.checks.counts import set_count
-from signkin.audit.checks.effects import ends
+from signkin.audit.checks.effects import Ends, ends
 from signkin.audit.checks.groups import want_number
-from signkin.audit.checks.rows import ABSENT, Row, each, rows_of
+from signkin.audit.checks.rows import ABSENT, Row, each, rows_of, scale_columns, scale_of
 from signkin.audit.findings import CONSISTENT, DIGITS, INCONSISTENT, UNDECIDABLE, Finding
 from signkin.audit.registry import OnPrint, on_print
 from signkin.audit.rounding import allowed, is_number
@@ -126,42 +126,94 @@ def _apart(low: np.ndarray, high: np.ndarray, a: int, b: int, c: int) -> bool:
 )  # fmt: skip
 def scale_bounds(
     context: OnPrint, low: str, high: str, table: str = "", n: str = "n", mean: str = "mean",
-    sd: str = "sd",
+    sd: str = "sd", observed: bool = False,
 ) -> list[Finding]:  # fmt: skip
     """A mean lies on its scale, and its SD is not above what the scale allows (any values).
 
-    The greatest SD has all values at the ends: sqrt((high - mean)(mean - low) n / (n - 1)).
+    low, high: the ends, numbers or columns of the table. The greatest SD has all values at the
+    ends: sqrt((high - mean)(mean - low) n / (n - 1)). With `observed: true` low and high are the
+    printed least and greatest value: both are there, and the SD is not too small for that.
     """
-    bottom, top = (want_number(name, context.text(text)) for name, text in
-                   (("low", low), ("high", high)))  # fmt: skip
-    if bottom >= top:
-        raise SignkinError(f"a scale from {bottom:g} to {top:g}", expected="its lower end first")
+    columns = {"n": n, "mean": mean, "sd": sd, **scale_columns(context, table, low, high)}
+    fixed = {name: want_number(name, context.text(text))
+             for name, text in (("low", low), ("high", high)) if name not in columns}  # fmt: skip
+    if len(fixed) == 2 and fixed["low"] >= fixed["high"]:
+        raise SignkinError(f"a scale from {fixed['low']:g} to {fixed['high']:g}",
+                           expected="its lower end first")  # fmt: skip
 
     def judge(row: Row) -> Finding:
+        scale = scale_of(context, row, low, high)
+        for name, end in zip(("low", "high"), scale, strict=True):
+            want_number(name, end)
+        bottom, top = (ends(end) for end in scale)
+        if not observed:
+            bottom, top = ((end[0],) * 3 for end in (bottom, top))
+        if bottom[0] > top[0] or (bottom[0] == top[0] and not observed):
+            raise SignkinError(f"a scale from {scale[0]} to {scale[1]}",
+                               expected="its lower end first")  # fmt: skip
         size, m, s = set_count("n", row["n"]), ends(row["mean"]), ends(row["sd"])
-        printed = f"{row['mean']} ({row['sd']})"
         if s[0] < 0:
             raise SignkinError(f"the SD is {row['sd']}", expected="a number from 0")
-        if m[2] < bottom or m[1] > top:
-            why = f"the mean {row['mean']} lies outside the scale from {bottom:g} to {top:g}"
-            return Finding(INCONSISTENT, why, printed, nearest=f"{bottom:g} to {top:g}")
-        by = size / (size - 1) if size > 1 else inf
+        return _on_scale(row, size, m, s, (bottom, top), observed)
 
-        def most(x: float) -> float:
-            x = min(max(x, bottom), top)
-            return sqrt((top - x) * (x - bottom) * by) if size > 1 else 0.0
+    return each(rows_of(context, table, columns), judge)
 
-        half = (bottom + top) / 2
-        values = [most(m[1]), most(m[2])] + ([most(half)] if m[1] <= half <= m[2] else [])
-        fits = s[1] <= max(values) + 1e-9
-        why = f"with mean {row['mean']} the SD is at most {most(m[0]):.4g}"
-        why += "" if fits else f", printed is {row['sd']}"
-        return Finding(CONSISTENT if fits else INCONSISTENT, why, printed, f"{most(m[0]):.4g}",
-                       f"up to {max(values):.6g}", nearest="" if fits else
-                       f"SD up to {max(values):.4g}", severity="" if fits else DIGITS,
-                       hand="sqrt((high - mean)(mean - low) n / (n - 1))")  # fmt: skip
 
-    return each(rows_of(context, table, {"n": n, "mean": mean, "sd": sd}), judge)
+def _on_scale(
+    row: Row, size: int, m: Ends, s: Ends, scale: tuple[Ends, Ends], observed: bool
+) -> Finding:
+    printed, (a, b) = f"{row['mean']} ({row['sd']})", scale
+    told = f"{a[0]:g} to {b[0]:g}"
+    settings = f"{told}, both ends observed" if observed else told
+    least_mean, most_mean = a[1], b[2]
+    if observed and size > 1:  # one value at each end at least
+        least_mean = (a[1] * (size - 1) + b[1]) / size
+        most_mean = (a[2] + b[2] * (size - 1)) / size
+    if m[2] < least_mean - 1e-9 or m[1] > most_mean + 1e-9:
+        beyond = f" of {size} values with both ends among them" if observed else ""
+        why = f"the mean {row['mean']}{beyond} lies outside the scale from {told}"
+        return Finding(INCONSISTENT, why, printed, settings=settings,
+                       nearest=f"{least_mean:.4g} to {most_mean:.4g}")  # fmt: skip
+    by = size / (size - 1) if size > 1 else inf
+
+    def most(x: float, low: float, high: float) -> float:
+        x = min(max(x, low), high)
+        return sqrt((high - x) * (x - low) * by) if size > 1 else 0.0
+
+    half = (a[1] + b[2]) / 2
+    values = [most(x, a[1], b[2]) for x in (m[1], m[2])]
+    values += [most(half, a[1], b[2])] if m[1] <= half <= m[2] else []
+    least = _least_sd(size, m, a, b) if observed else 0.0
+    above, below = s[1] > max(values) + 1e-9, s[2] < least - 1e-9
+    hand = most(m[0], a[0], b[0])
+    why = f"with mean {row['mean']} the SD is at most {hand:.4g}"
+    why += f" and at least {least:.4g}" if observed else ""
+    why += f", printed is {row['sd']}" if above or below else ""
+    near = (
+        f"SD from {least:.4g} to {max(values):.4g}" if observed else f"SD up to {max(values):.4g}"
+    )
+    bad = above or below
+    return Finding(
+        INCONSISTENT if bad else CONSISTENT, why, printed, f"{hand:.4g}",
+        f"{least:.6g} to {max(values):.6g}" if observed else f"up to {max(values):.6g}",
+        nearest=near if bad else "", severity=DIGITS if bad else "", settings=settings,
+        hand="sqrt((high - mean)(mean - low) n / (n - 1))",
+    )  # fmt: skip
+
+
+def _least_sd(n: int, m: Ends, a: Ends, b: Ends) -> float:
+    """Return a bound that no SD (divisor n) lies below with values at both ends a and b.
+
+    The others all at one place make it least: their squares and the ends' are
+    u^2 / 2 + s^2 (1 / 2 + 1 / (n - 2)), with u = b - a and s = a + b - 2 mean.
+    """
+    apart = max(0.0, b[1] - a[2])
+    if n < 2:
+        return 0.0
+    sides = (a[1] + b[1] - 2 * m[2], a[2] + b[2] - 2 * m[1])
+    skew = 0.0 if sides[0] <= 0 <= sides[1] else min(map(abs, sides))
+    times = 0.5 + (1 / (n - 2) if n > 2 else 0.0)
+    return sqrt((apart * apart / 2 + skew * skew * times) / n)
 
 
 @on_print(

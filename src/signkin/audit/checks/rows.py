@@ -90,11 +90,29 @@ def each(rows: Iterable[Row], judge: Callable[[Row], Finding]) -> list[Finding]:
     return out
 
 
+def scale_columns(context: OnPrint, table: str, low: str, high: str) -> dict[str, str]:
+    """Return the ends of a scale that are columns of the table (a printed range a row)."""
+    header = context.paper.table(table)[:1] if table else []
+    return {
+        role: name for role, name in (("low", low), ("high", high))
+        if name and any(name in row.cells for row in header)
+    }  # fmt: skip
+
+
+def scale_of(context: OnPrint, row: Row, low: str, high: str) -> tuple[str, str]:
+    """Return both ends of a row's scale: its own cells, or the check's numbers; empty: none."""
+    found = [
+        row.cells[role] if role in row.cells else context.text(end) if end else ""
+        for role, end in (("low", low), ("high", high))
+    ]
+    return tuple("" if end in ABSENT else end for end in found)  # type: ignore[return-value]
+
+
 def item(found: Finding, name: str, source: str) -> Finding:
     """Return a plain finding of a row, without what its check keeps for itself."""
     return Finding(
         found.verdict, found.why, found.printed, found.recomputed, found.interval, source, name,
-        found.settings, found.hand, found.nearest, found.severity, found.fault,
+        found.settings, found.hand, found.nearest, found.severity, found.fault, found.histogram,
     )  # fmt: skip
 
 

@@ -20,6 +20,8 @@ from signkin.audit.checks.rows import (
     item,
     one_digit,
     rows_of,
+    scale_columns,
+    scale_of,
     verdict_of,
     want_settings,
 )
@@ -126,17 +128,16 @@ def grimmer(
     """Each row's mean and SD are possible for its n on the grain (exact GRIMMER).
 
     divisor: n-1, n, either (a row at a time), or same: the one that most rows pass with, for
-    all rows. items: answers that each value is the mean of. low, high: the ends of the scale.
-    spread: sd, se (standard errors are printed), or either.
+    all rows. items: answers that each value is the mean of. low, high: the ends of the scale, or
+    columns with those of each row. spread: sd, se (standard errors are printed), or either.
     """
     want_settings(grain, items, divisor, rounding, spread, ("either", "same"))
-    ends = [context.text(end) if end else "" for end in (low, high)]
     asked = "either" if divisor == "same" else divisor
     kept: dict[tuple[str, str | None], tuple[Row, dict[str, bool]]] = {}
 
     def once(row: Row, kind: str) -> Finding:
         found = grimmer_of(row["mean"], row["sd"], row["n"], grain, asked, rounding, items,
-                           ends[0], ends[1], kind)  # fmt: skip
+                           *scale_of(context, row, low, high), kind)  # fmt: skip
         passed = {d: bool(found.pairs.get(d)) for d in DIVISORS}
         kept[row.name, row.place] = (row, passed)
         if row["n"] == "1" and row.file is not None:
@@ -153,7 +154,8 @@ def grimmer(
         names = {"sd": "SDs", "se": "standard errors"}
         return over_readings([(name, partial(once, row, s)) for s, name in names.items()])
 
-    found = each(rows_of(context, table, {"n": n, "mean": mean, "sd": sd}, suffixes), judge)
+    columns = {"n": n, "mean": mean, "sd": sd, **scale_columns(context, table, low, high)}
+    found = each(rows_of(context, table, columns, suffixes), judge)
     return _with_one_divisor(found, kept) if divisor == "same" else found
 
 
@@ -384,19 +386,22 @@ def range_possible(
 ) -> list[Finding]:
     """Each row can come from values between printed bounds.
 
-    suffix: rows that have columns with it filled are taken without their outlier.
+    low, high: numbers, or columns with those of each row. suffix: rows that have columns with it
+    filled are taken without their outlier.
     """
     want_settings(grain, items, divisor)
-    ends = {"low": context.text(low) if low else "", "high": context.text(high) if high else ""}
-    told = " and ".join(
-        f"{word} {ends[name]}" for word, name in (("at least", "low"), ("at most", "high"))
-        if ends[name]
-    )  # fmt: skip
-    columns = {"n": n, "mean": mean, "sd": sd}
+    columns = {"n": n, "mean": mean, "sd": sd, **scale_columns(context, table, low, high)}
     without = {r.place: r for r in rows_of(context, table, columns, (suffix,))} if suffix else {}
 
     def judge(row: Row) -> Finding:
         row = without.get(row.place, row)
+        bounds = scale_of(context, row, low, high)
+        ends = dict(zip(("low", "high"), bounds, strict=True))
+        told = " and ".join(
+            f"{word} {end}"
+            for word, end in zip(("at least", "at most"), bounds, strict=True)
+            if end
+        )
         if row["n"] == "1":
             mean_alone = grim_of(row["mean"], 1, grain, items=items)
             found = grimmer_of(row["mean"], "0", 1, grain, items=items, **ends)

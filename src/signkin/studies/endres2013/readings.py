@@ -1,158 +1,186 @@
-"""Fig. 3 to 7 under two readings of the prior: config.yaml's, and one beside it (3.2).
+"""What is printed where a rule of ours adds to it: the study without each such rule.
 
-The other one is `open_choices.endres2013.beside`: as shipped, the data's variances as
-the scale matrix V itself, in mm. The same recordings under both.
+Four rules of ours decide claims and stand nowhere in the paper: less of the prior's noise for
+fitted trajectories (`binning.recovery_noise`), a first gain that keeps the duration
+(`powerlaw.first_gain`), no ground truth with an R squared below 0.97
+(`powerlaw.least_r_squared`), and 90 ms as half the width of a hit's window. Each is taken out on
+the same recordings, and the claims are told under both. Beside them stand recorded movements and
+ground truth at equal T.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from signkin import tables
-from signkin.binning.hit_rate import group_rates, hpfpps
 from signkin.corpus import Corpus
+from signkin.errors import SignkinError
+from signkin.io.store import read_recordings
+from signkin.powerlaw import LeftOut
+from signkin.recording import Recording
 from signkin.studies.endres2013.posteriors import (
     FITTED,
     FITTED_MAP,
+    Data,
+    Fitted,
+    Study,
     chosen,
-    prior_id,
-    study,
+    rows_of,
 )
-from signkin.studies.endres2013.settings import ChoiceSettings
-from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajectory
-from signkin.studies.endres2013.summaries import rates_by_order
+from signkin.studies.endres2013.settings import ReadingSettings
+from signkin.studies.endres2013.single_signs import (
+    POWERLAW,
+    SingleSigns,
+    Trajectory,
+    ground_truth,
+    movement_of,
+    recorded,
+    single_signs,
+    warped,
+)
+from signkin.studies.endres2013.summaries import hit_rates, order_posteriors
 
-SHIPPED, BESIDE = "as configured", "beside"
-FITTED_ORDER = 3  # that of Fig. 3B and C
-GROUPS = ((RECORDED, None), (POWERLAW, None), (FITTED, FITTED_ORDER), (FITTED_MAP, FITTED_ORDER))
+OURS = "as configured"
+NOISE = "the recordings' noise for fitted trajectories"
+WINDOW = "half the window"
+GAIN = "gain of the first sample"
+ANY_FIT = "any R squared"
+GAIN_ANY_FIT = "gain of the first sample, any R squared"
+EQUAL = "equal bins"
+EQUAL_PRINTED = "equal bins, gain of the first sample, any R squared"
+ANY = -1e9  # an R squared that every law has
+LAWS: dict[str, dict[str, object]] = {
+    GAIN: {"first_gain": "first_sample"},
+    ANY_FIT: {"least_r_squared": ANY},
+    GAIN_ANY_FIT: {"first_gain": "first_sample", "least_r_squared": ANY},
+}
+NAMES = ("binning", "hit_rates", "order_posteriors", "ground_truth")
+
+
+@dataclass(frozen=True, eq=False)
+class _Read:
+    """Fits under one reading, and half the width of its window for hits in s."""
+
+    name: str
+    fits: Sequence[Fitted]
+    window_s: float
 
 
 def readings(
-    corpus: Corpus, trajectories: Sequence[Trajectory], binning: pd.DataFrame,
-    settings: ChoiceSettings, workers: int,
-) -> pd.DataFrame:  # fmt: skip
-    """Return the table `readings`: a row a reading, a group of trajectories and an order.
+    corpus: Corpus, paths: Iterable[str | Path], settings: ReadingSettings, seed: int, workers: int
+) -> dict[str, pd.DataFrame]:
+    """Return the tables equal_bins, readings_binning, _hit_rates, _order_posteriors, _ground_truth.
 
-    trajectories: of all shards. binning: the corpus's table `binning`, under its own prior. At
-    most `fitted_recordings` recordings, those that fitted trajectories are made of.
+    paths: the recordings of all shards; at most `fitted_recordings` are taken, evenly spread.
+    Rows of fitted trajectories stand in the summaries alone.
     """
-    fit = settings.fit
-    picked = set(chosen([e.recording for e in corpus.entries], fit.fitted_recordings))
-    own = binning[binning["recording"].isin(picked)]
-    other = study(
-        corpus,
-        [t for t in trajectories if t.recording in picked],
-        replace(fit, prior=settings.choices.beside, fitted_orders=(FITTED_ORDER,)),
-        workers,
-    ).table("binning")
-    priors = {SHIPPED: fit.prior, BESIDE: settings.choices.beside}
-    rows = [
-        {"corpus": corpus.name, "reading": reading, "prior": prior_id(priors[reading]), **row}
-        for reading, frame in ((SHIPPED, own), (BESIDE, other))
-        for row in _rows(frame)
+    names = chosen([e.recording for e in corpus.entries], settings.fit.fitted_recordings)
+    recordings = [one for path in paths for one in read_recordings(Path(path), names)]
+    runs = Study(corpus, settings.fit, workers)
+    cuts = {OURS: single_signs(corpus, recordings, settings.cut, seed)}
+    for name, change in LAWS.items():
+        law = settings.cut.powerlaw.model_copy(update=change)
+        cuts[name] = single_signs(corpus, recordings, replace(settings.cut, powerlaw=law), seed)
+    parts = [_summary(corpus, one, settings, seed) for one in _reads(runs, cuts, settings)]
+    equal: dict[str, pd.DataFrame] = {}
+    for name, change in ((EQUAL, {}), (EQUAL_PRINTED, LAWS[GAIN_ANY_FIT])):
+        fits = runs.run(_data(equal_bins(corpus, recordings, settings, change, seed)))
+        rows = [row for one in fits for row in rows_of(corpus, settings.fit, one)]
+        equal[name] = pd.DataFrame(rows, columns=tables.TABLES["binning"].names())
+    parts.append({"binning": equal[EQUAL_PRINTED].assign(reading=EQUAL_PRINTED)})
+    out = {"equal_bins": equal[EQUAL]} | {
+        f"readings_{name}": pd.concat([part[name] for part in parts if name in part])
+        for name in NAMES[:3]
+    }
+    laws = [
+        found.table("ground_truth", corpus.unit).assign(reading=name)
+        for name, found in cuts.items()
     ]
-    return pd.DataFrame(rows, columns=tables.TABLES["readings"].names())
+    out[f"readings_{NAMES[3]}"] = pd.concat(laws, ignore_index=True)
+    return {
+        name: table.reindex(columns=tables.TABLES[name].names(corpus.unit))
+        for name, table in out.items()
+    }
 
 
-def _rows(binning: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    for dataset, true_order in GROUPS:
-        here = binning["dataset"] == dataset
-        if true_order is not None:
-            here &= binning["true_order"] == true_order
-        part = binning[here]
-        # Recorded boundaries are not known: hits are empty there.
-        rates = {} if dataset == RECORDED else rates_by_order(part)
-        for order, rows in part.groupby("order"):
-            p = rows["order_probability"].to_numpy(dtype=float)
-            row: dict[str, Any] = {
-                "dataset": dataset,
-                "true_order": true_order,
-                "order": order,
-                "mean_probability": p.mean(),
-                "se": p.std(ddof=1) / np.sqrt(len(p)) if len(p) > 1 else None,
-                "mean_count": rows["map_count"].mean(),
-                "mean_explained_variance": rows["explained_variance"].mean(),
-                "median_noise_misfit": rows["noise_misfit"].median(),
-                "n": len(p),
-            }
-            if order in rates:
-                mean = group_rates(rates[order])
-                ratio = hpfpps(rates[order], 0, draws=2).value  # the ratio itself alone
-                row |= {
-                    "hit_rate": mean.hit_rate,
-                    "hit_rate_se": mean.hit_rate_se,
-                    "false_positives_per_s": mean.false_positives_per_s,
-                    "false_positives_per_s_se": mean.false_positives_per_s_se,
-                    "hpfpps": ratio if np.isfinite(ratio) else None,
-                }
-            yield row
+def _reads(runs: Study, cuts: dict[str, SingleSigns], settings: ReadingSettings) -> Iterator[_Read]:
+    window = settings.fit.hit_window_s
+    fits = runs.run(_data(cuts[OURS].trajectories))
+    again = [
+        item
+        for one in fits
+        if one.data.dataset != POWERLAW
+        for order in settings.fit.fitted_orders
+        for item in runs.fitted_data(one, order)
+    ]
+    refits = runs.run(again)
+    yield _Read(OURS, [*fits, *refits], window)
+    yield _Read(WINDOW, [*fits, *refits], window / 2)
+    yield _Read(NOISE, runs.run([replace(item, noise_share=1.0) for item in again]), window)
+    for name in LAWS:
+        warps = [t for t in cuts[name].trajectories if t.dataset == POWERLAW]
+        yield _Read(name, runs.run(_data(warps)), window)
 
 
-def printed_beside(table: pd.DataFrame) -> pd.DataFrame:
-    """Return what the paper prints of Fig. 3 to 7 beside both readings: what, where, printed, ...
+def _data(trajectories: Iterable[Trajectory]) -> list[Data]:
+    none = np.empty(0)
+    return [
+        Data(t, t.dataset, t.x, None, t.boundaries_s if t.dataset == POWERLAW else none)
+        for t in trajectories
+    ]
 
-    table: `readings`. One column a reading, each a text; empty where a group is empty.
+
+def equal_bins(
+    corpus: Corpus, recordings: Iterable[Recording], settings: ReadingSettings,
+    change: Mapping[str, object], seed: int,
+) -> list[Trajectory]:  # fmt: skip
+    """Return recorded movements and their ground truth in as many bins each, pair by pair.
+
+    change: settings of the ground truth that are not as configured.
+
+    Ground truth has 240 Hz and so a hundred bins, where a recording of 25 Hz has as few as it has
+    samples: orders of the two are to be compared at equal T.
     """
-    found = {reading: dict(_numbers(part)) for reading, part in table.groupby("reading")}
-    rows = [
-        {
-            "what": what,
-            "where": where,
-            "printed": printed,
-            **{reading: found.get(reading, {}).get(what, "") for reading in (SHIPPED, BESIDE)},
-        }
-        for what, (where, printed) in PRINTED.items()
-    ]
-    return pd.DataFrame(rows)
+    out = []
+    law = settings.cut.powerlaw.model_copy(update=dict(change))
+    for recording in recordings:
+        try:
+            movement = movement_of(recording, settings.cut)
+            as_recorded = recorded(movement, settings.cut.bins)
+        except SignkinError:  # listed where trajectories are made: left_out.csv
+            continue
+        truth = ground_truth(corpus.name, movement.wrist, law, seed)
+        if not isinstance(truth, LeftOut):
+            out += [as_recorded, warped(movement.wrist, truth, len(as_recorded.x))]
+    return out
 
 
-# What is printed: what -> (where, value).
-PRINTED = {
-    "mean M, orders 0, 3, 7": ("3.1", "13, 7 (one example), 2"),
-    "explained variance, orders 0, 3": ("Fig. 3D", "> 0.95, > 0.99"),
-    "P(S = 3), fitted with order 3: averaged, most probable": ("Fig. 3B", "near 1"),
-    "hit rate there": ("Fig. 3C", "near 1"),
-    "false positives a second there": ("Fig. 3C", "almost none"),
-    "ground truth, order 3: hit rate, false positives a second": ("Fig. 5", "drawn"),
-    "ground truth: peak of eq. 17": ("Fig. 6", "3"),
-    "ground truth: peak of the order posterior, its P": ("Fig. 6", "3"),
-    "recorded: peak of the order posterior, its P": ("Fig. 7", "4"),
-    "recorded: P(3 ≤ S ≤ 5)": ("3.3", "> 0.95"),
-}
+def _summary(
+    corpus: Corpus, read: _Read, settings: ReadingSettings, seed: int
+) -> dict[str, pd.DataFrame]:
+    fit = replace(settings.fit, hit_window_s=read.window_s)
+    rows = [row for one in read.fits for row in rows_of(corpus, fit, one)]
+    frame = pd.DataFrame(rows, columns=tables.TABLES["binning"].names())
+    refitted = frame["dataset"].isin([FITTED, FITTED_MAP])
+    binning = settings.binning.model_copy(update={"hit_window_s": read.window_s})
+    rates, _ = hit_rates(corpus.name, frame, _truths(read.fits), binning, seed, parts=False)
+    found = {
+        "binning": frame[~refitted],
+        "order_posteriors": order_posteriors(corpus.name, frame, parts=False),
+        "hit_rates": rates,
+    }
+    return {name: table.assign(reading=read.name) for name, table in found.items()}
 
 
-def _numbers(part: pd.DataFrame) -> Iterator[tuple[str, str]]:
-    recorded, truth, averaged, probable = (_group(part, name) for name, _ in GROUPS)
-    names = list(PRINTED)
-
-    def cells(frames: Sequence[pd.DataFrame], column: str, orders: Sequence[int], to: str) -> str:
-        """Return numbers, one an order and frame; empty where one is lacking."""
-        values = [f[column].get(order) for f in frames for order in orders]
-        known = [format(v, to) for v in values if v is not None and pd.notna(v)]
-        return ", ".join(known) if len(known) == len(values) else ""
-
-    yield names[0], cells([recorded], "mean_count", (0, 3, 7), ".1f")
-    yield names[1], cells([recorded], "mean_explained_variance", (0, 3), ".4f")
-    again = [averaged, probable]
-    for name, column in zip(
-        names[2:5], ("mean_probability", "hit_rate", "false_positives_per_s"), strict=True
-    ):
-        yield name, cells(again, column, (FITTED_ORDER,), ".2f")
-    hits = [cells([truth], c, (3,), ".2f") for c in ("hit_rate", "false_positives_per_s")]
-    yield names[5], ", ".join(hits) if all(hits) else ""
-    if truth["hpfpps"].notna().any():
-        yield names[6], str(int(truth["hpfpps"].idxmax()))
-    for name, frame in ((names[7], truth), (names[8], recorded)):
-        if len(frame):
-            peak = int(frame["mean_probability"].idxmax())
-            yield name, f"{peak}, {frame['mean_probability'][peak]:.2f}"
-    yield names[9], f"{recorded['mean_probability'].reindex([3, 4, 5]).sum():.3f}"
-
-
-def _group(part: pd.DataFrame, dataset: str) -> pd.DataFrame:
-    return part[part["dataset"] == dataset].set_index("order")
+def _truths(fits: Sequence[Fitted]) -> dict[tuple[str, int | None, str], Sequence[float]]:
+    return {
+        (one.data.dataset, one.data.true_order, one.data.source.recording): [
+            float(time) for time in one.data.truth_s
+        ]
+        for one in fits
+    }

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
+from signkin.report.attempts import attempted
 from signkin.report.exhibit_views import by_exhibit
 from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.studies.endres2013 import report_beside
@@ -85,29 +87,44 @@ def badge(corpus: Corpus) -> str:
 def _single_signs(
     folder: Path, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
 ) -> Iterator[tuple[str, View]]:
-    yield "found", _printed_and_found(folder)
+    printed = partial(_printed_and_found, folder)
+    yield from (("found", view) for view in attempted("Printed, and found here", printed))
     for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
         yield _CHAPTER.get(view.svg.stem, "recorded"), view
         if view.svg.stem == "fig06":
-            yield "truth", _rates(folder, hit_window_s)
-            yield "truth", _tests(folder)
+            rates, tests = partial(_rates, folder, hit_window_s), partial(_tests, folder)
+            yield from (("truth", view) for view in attempted("Hit rates", rates))
+            yield from (("truth", view) for view in attempted("Tests of orders", tests))
         if view.svg.stem == "fig07":
-            yield from (("recorded", beside) for beside in report_beside.learnt(folder))
-    choices = FigureView(
+            learnt = partial(report_beside.learnt, folder)
+            yield from (("recorded", one) for one in attempted("The prior learnt", learnt))
+    yield "choices", _figure(folder, "order_choices", "Orders under all choices")
+    priors, doubts = (
+        partial(of, folder) for of in (report_beside.two_priors, report_beside.doubts)
+    )
+    yield from (("choices", one) for one in attempted("Two readings of the prior", priors))
+    yield from (("found", one) for one in attempted("Does the noise fit?", doubts))
+    title = "Power laws of recorded movement, and of noise"
+    yield "power-laws", _figure(folder, "recorded_laws", title, "law_pitfalls.csv")
+    out = partial(left_out, folder / "left_out.csv")
+    yield from (("left-out", view) for view in attempted("Left out", out))
+    rejected = partial(_rejected, folder)
+    yield from (("power-laws", view) for view in attempted("Rejected draws", rejected))
+
+
+def _figure(folder: Path, name: str, title: str, *others: str) -> FigureView:
+    """Return the view of a figure that is no exhibit; others: tables beside its own."""
+    base = folder / f"fig_{name}"
+    return FigureView(
         label="",
-        title="Orders under all choices",
-        caption=(folder / "order_choices.txt").read_text(encoding="utf-8").strip(),
-        svg=folder / "fig_order_choices.svg",
+        title=title,
+        caption=(folder / f"{name}.txt").read_text(encoding="utf-8").strip(),
+        svg=base.with_suffix(".svg"),
         files=[
-            *figure_files(folder / "fig_order_choices", ".svg", ".pdf"),
-            folder / "order_choices.csv",
+            *figure_files(base, ".svg", ".pdf"),
+            *(folder / f for f in (f"{name}.csv", *others)),
         ],
     )
-    yield "choices", choices
-    yield from (("choices", beside) for beside in report_beside.two_priors(folder))
-    yield from (("found", beside) for beside in report_beside.doubts(folder))
-    yield from (("left-out", view) for view in left_out(folder / "left_out.csv"))
-    yield from (("power-laws", view) for view in _rejected(folder))
 
 
 # --- tables ----------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import pandas as pd
 
 from signkin.binning.posterior import MOST_MISFIT
 from signkin.report.page import FigureView, TableView, figure_files
-from signkin.studies.endres2013.readings import BESIDE, SHIPPED, printed_beside
+from signkin.studies.endres2013.two_priors import BESIDE, SHIPPED, printed_beside
 from signkin.tables import read_table
 
 
@@ -86,14 +86,14 @@ def learnt(folder: Path) -> Iterator[TableView]:
 
 def two_priors(folder: Path) -> Iterator[TableView | FigureView]:
     """Yield Fig. 3 to 7 under the prior of config.yaml and the one beside it: figure and table."""
-    path = folder / "readings.csv"
-    table = read_table(path, "readings")
+    path = folder / "two_priors.csv"
+    table = read_table(path, "two_priors")
     yield FigureView(
         label="",
         title="Fig. 3 to 7 under two readings of the prior",
-        caption=(folder / "readings.txt").read_text(encoding="utf-8").strip(),
-        svg=folder / "fig_readings.svg",
-        files=[*figure_files(folder / "fig_readings", ".svg", ".pdf"), path],
+        caption=(folder / "two_priors.txt").read_text(encoding="utf-8").strip(),
+        svg=folder / "fig_two_priors.svg",
+        files=[*figure_files(folder / "fig_two_priors", ".svg", ".pdf"), path],
     )
     names = dict(table.groupby("reading")["prior"].first())
     yield TableView(

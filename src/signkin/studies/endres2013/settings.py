@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from signkin.settings import Settings
-from signkin.settings.sections import BinningLowpass, EndresChoices, PowerLaw, Prior
+from signkin.settings.sections import Binning, BinningLowpass, EndresChoices, PowerLaw, Prior
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,20 @@ class FitSettings:
     def of(cls, settings: Settings) -> FitSettings:
         """Return those of a run."""
         return cls(**{one.name: getattr(settings.binning, one.name) for one in fields(cls)})
+
+
+@dataclass(frozen=True)
+class ReadingSettings:
+    """The settings that readings as printed start from, and those of their summaries."""
+
+    cut: CutSettings
+    fit: FitSettings
+    binning: Binning
+
+    @classmethod
+    def of(cls, settings: Settings) -> ReadingSettings:
+        """Return those of a run."""
+        return cls(CutSettings.of(settings), FitSettings.of(settings), settings.binning)
 
 
 @dataclass(frozen=True)

@@ -115,7 +115,7 @@ def single_signs(
         if isinstance(truth, LeftOut):
             leave_out(POWERLAW, truth.reason)
         else:
-            out.trajectories.append(_warped(movement.wrist, truth, bins))
+            out.trajectories.append(warped(movement.wrist, truth, bins))
             out.segments += [{**start, **row} for row in _segments(truth, corpus.unit)]
         out.rejected += [
             {**start, "draws": truth.draws, "reason": reason, "rejected": n}
@@ -155,7 +155,8 @@ def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundT
         return LeftOut(reason=str(error))
 
 
-def _warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:
+def warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:
+    """Return the path with power-law timing in bins; as many as samples where those are fewer."""
     x, bin_s = in_bins(truth.positions, truth.rate_hz, min(bins, len(truth.positions)))
     at = sample_at(len(truth.positions), len(x))
     return Trajectory(wrist.recording, wrist.hand, POWERLAW, x, bin_s, truth.boundaries_s, at)

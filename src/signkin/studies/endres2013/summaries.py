@@ -50,21 +50,23 @@ def summaries(
     }
 
 
-def groups(binning: pd.DataFrame) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
-    """Yield each group's key and rows: whole datasets, then signers and signs."""
+def groups(
+    binning: pd.DataFrame, parts: bool = True
+) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """Yield each group's key and rows: whole datasets, then (parts) signers and signs."""
     for (dataset, true_order), rows in binning.groupby(["dataset", "true_order"], dropna=False):
         key = {"dataset": dataset, "true_order": true_order}
         yield {**key, "signer": ALL, "sign": ALL}, rows
-        if dataset in (FITTED, FITTED_MAP):
+        if dataset in (FITTED, FITTED_MAP) or not parts:
             continue
         for (signer, sign), part in rows.groupby(["signer", "sign"]):
             yield {**key, "signer": signer, "sign": sign}, part
 
 
-def order_posteriors(corpus: str, binning: pd.DataFrame) -> pd.DataFrame:
-    """Return the table `order_posteriors`."""
+def order_posteriors(corpus: str, binning: pd.DataFrame, parts: bool = True) -> pd.DataFrame:
+    """Return the table `order_posteriors`; parts: signers and signs apart, too."""
     rows = []
-    for key, part in groups(binning):
+    for key, part in groups(binning, parts):
         for order, of_order in part.groupby("order"):
             p = of_order["order_probability"].to_numpy(dtype=float)
             explained = of_order["explained_variance"].to_numpy(dtype=float)
@@ -124,14 +126,15 @@ def chance_of(
 
 def hit_rates(
     corpus: str, binning: pd.DataFrame, truths: Truths,
-    settings: Binning, seed: int,
+    settings: Binning, seed: int, parts: bool = True,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:  # fmt: skip
     """Return the tables `hit_rates` and `chance_lines`.
 
-    truths: (dataset, true order, recording) -> known boundaries in s.
+    truths: (dataset, true order, recording) -> known boundaries in s. parts: signers and signs
+    apart, too.
     """
     rate_rows, chance_rows = [], []
-    for key, part in groups(binning[binning["dataset"] != RECORDED]):
+    for key, part in groups(binning[binning["dataset"] != RECORDED], parts):
         name = tuple(str(value) for value in key.values())
         rates = rates_by_order(part)
         recordings = sorted(part["recording"].unique())

@@ -100,6 +100,13 @@ def learnable(
     told = [
         f"{int((~held).sum())} left out: {why}" for why, held in usable.items() if not held.all()
     ]
+    if not kept.any():
+        why = joined(*told) or "no two signs of an utterance follow each other without overlap"
+        raise SignkinError(
+            "no transition that a model of duration can use",
+            place="transitions",
+            expected=f"one or more ({why})",
+        )
     return Learnable(rows[kept].reset_index(drop=True), data[kept], name, joined(*told), absent)
 
 

@@ -20,15 +20,17 @@ from numpy.typing import NDArray
 from signkin import seeds, tables
 from signkin.annotation import Interval
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance, normalised
-from signkin.coarticulation.segmentation import chance_distances, nearest, refine
+from signkin.coarticulation.segmentation import refine
 from signkin.corpus import Corpus
-from signkin.joints import HANDS, arm_joints
+from signkin.joints import HANDS, arm_joints, hands_of
 from signkin.kinematics.derivatives import speed
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.recording import Recording
+from signkin.statistics import nulls
 from signkin.statistics.descriptive import outliers
 from signkin.studies.naert2017.settings import GridSettings
+from signkin.studies.naert2017.tag_chance import ALL, TRANSITION
 from signkin.studies.naert2017.tagged import (
     filled_recording,
     intervals_of,
@@ -63,33 +65,54 @@ class Gathered:
     geodesic: list[Floats] = field(default_factory=list)
     euclidean: list[Floats] = field(default_factory=list)
     types: list[str] = field(default_factory=list)
-    near: int = 0
     moved: int = 0
-    tags: int = 0
-    chance: Floats | None = None  # tags near a minimum, in each set of random tags
+    tags: dict[str, int] = field(default_factory=dict)  # `all` or `transition`
+    near: dict[str, int] = field(default_factory=dict)
+    # Tags near a minimum in each set of random ones, by null and kind of tags.
+    chance: dict[tuple[str, str], Floats] = field(default_factory=dict)
 
-    def add_tags(self, manual: Floats, minima: Floats, random: Floats, reach_s: float) -> None:
-        """Count tags (N, 2), and sets of random ones (draws, 2 N), with a minimum so near."""
-        distance = np.abs(nearest(manual, minima) - manual)
-        self.near += int((distance <= reach_s).sum())
-        self.tags += manual.size
-        hits = (random <= reach_s).sum(axis=1).astype(float)
-        self.chance = hits if self.chance is None else self.chance + hits
+    def add_tags(self, near: _Near, reach_s: float) -> None:
+        """Count tags, and sets of random ones, with a minimum so near."""
+        for kind, distance in near.tags.items():
+            self.near[kind] = self.near.get(kind, 0) + int((distance <= reach_s).sum())
+            self.tags[kind] = self.tags.get(kind, 0) + distance.size
+        for key, random in near.chance.items():
+            hits = (random <= reach_s).sum(axis=1).astype(float)
+            self.chance[key] = self.chance[key] + hits if key in self.chance else hits
 
-    def add_transitions(self, take: _Take, refined: Floats, joints: list[int]) -> None:
+    def share(self, kind: str) -> float:
+        """Return the share of such tags with a minimum near; NaN without any."""
+        return self.near[kind] / self.tags[kind] if self.tags[kind] else np.nan
+
+    def chance_high(self, null: str, kind: str) -> float:
+        """Return the share that 97.5 % of sets of random tags stay within."""
+        if not self.tags[kind]:
+            return np.nan
+        hits = self.chance[null, kind] / self.tags[kind]
+        return float(np.quantile(hits, 0.975, method="nearest"))
+
+    def add_transitions(self, take: Take, refined: Floats, joints: list[int]) -> None:
         """Add the transitions of a recording between refined tags (N, 2), for one arm's joints."""
         start, end = refined[take.before, 1], refined[take.before + 1, 0]
         self.durations.append(np.round(end - start, 9))
         was = take.manual[take.before + 1, 0] - take.manual[take.before, 1]
         self.changes.append(np.round(np.abs(end - start - was), 6))
-        geodesic, euclidean = _distances(take.filled, take.turns, start, end, joints)
+        geodesic, euclidean = distances_between(take.filled, take.turns, start, end, joints)
         self.geodesic.append(geodesic)
         self.euclidean.append(euclidean)
         self.types += take.types
 
 
 @dataclass(frozen=True, eq=False)
-class _Take:
+class _Near:
+    """Distances of tags to the nearest minimum, by kind; chance: by null and kind, (draws, N)."""
+
+    tags: dict[str, Floats]
+    chance: dict[tuple[str, str], Floats]
+
+
+@dataclass(frozen=True, eq=False)
+class Take:
     """A recording as the grid runs over it.
 
     manual: tags (signs, 2). before: signs with a transition after them. types: of these.
@@ -112,7 +135,8 @@ class _Take:
         intervals: pd.DataFrame,
         types: list[str],
         settings: GridSettings,
-    ) -> _Take:
+    ) -> Take:
+        """Return a recording with its signs. types: of its transitions between manual tags."""
         signs = intervals_of(intervals, recording.name, "sign")
         utterances = utterances_of(corpus, intervals, recording.name, signs)
         follows = (u and u == v for u, v in pairwise(utterances))
@@ -126,6 +150,24 @@ class _Take:
             before=np.array([i for i, there in enumerate(follows) if there], dtype=int),
             types=types,
         )
+
+
+def takes_of(
+    corpus: Corpus,
+    recordings: Iterable[Recording],
+    intervals: pd.DataFrame,
+    transitions: pd.DataFrame,
+    excluded: pd.DataFrame,
+    settings: GridSettings,
+) -> Iterator[Take]:
+    """Yield the tagged recordings of a corpus; arguments as those of `claim_choices`."""
+    manual = between_manual(transitions)
+    signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
+    used = signed - set(excluded["recording"])
+    for recording in recordings:
+        if recording.name in used:
+            types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
+            yield Take.of(corpus, recording, intervals, types, settings)
 
 
 def claim_choices(
@@ -144,15 +186,9 @@ def claim_choices(
     """
     grid = settings.choices
     gathered: dict[Setting, Gathered] = defaultdict(Gathered)
-    manual = between_manual(transitions)
-    signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
-    used = signed - set(excluded["recording"])
-    for recording in recordings:
-        if recording.name in used:
-            types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
-            take = _Take.of(corpus, recording, intervals, types, settings)
-            _add(corpus.name, take, settings, seed, gathered)
-    rows = list(_manual_rows(manual, settings))
+    for take in takes_of(corpus, recordings, intervals, transitions, excluded, settings):
+        _add(corpus.name, take, settings, seed, gathered)
+    rows = list(_manual_rows(between_manual(transitions), settings))
     for setting in (
         Setting(*s) for s in product(HANDS, grid.cutoff_hz, grid.prominence, grid.search_window_s)
     ):
@@ -161,14 +197,14 @@ def claim_choices(
     for row in rows:
         row["corpus"] = corpus.name
     frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["claim_choices"].names())
-    for column in ("segmentation", "hand", "outliers", "note"):
+    for column in ("segmentation", "hand", "outliers", "null", "note"):
         frame[column] = frame[column].fillna("")
     return frame.sort_values("claim", kind="stable", ignore_index=True)
 
 
 def _add(
     corpus: str,
-    take: _Take,
+    take: Take,
     settings: GridSettings,
     seed: int,
     gathered: dict[Setting, Gathered],
@@ -177,18 +213,47 @@ def _add(
     grid, tolerance_s = settings.choices, settings.refinement.tolerance_s
     joints = take.filled.joints
     arms = {hand: [take.filled.index(j) for j in arm_joints(joints, hand)] for hand in HANDS}
+    random = _random_tags(take, grid.draws, seed, corpus)
     for cutoff in grid.cutoff_hz:
         for hand, prominence, minima in _minima(take.filled, cutoff, settings):
-            random = chance_distances(
-                take.signs, minima, take.filled.rate_hz, grid.draws,
-                seeds.stream(seed, corpus, take.name, hand, "multiverse"),
-            )  # fmt: skip
+            near = _near(take, minima, random, max(grid.search_window_s))
             for window in grid.search_window_s:
                 refined, moved, _ = refine(take.manual, minima, window, tolerance_s)
                 to = gathered[Setting(hand, cutoff, prominence, window)]
-                to.add_tags(take.manual, minima, random, window + tolerance_s)
+                to.add_tags(near, window + tolerance_s)
                 to.moved += int(moved.sum())
                 to.add_transitions(take, refined, arms[hand])
+
+
+def _random_tags(take: Take, draws: int, seed: int, corpus: str) -> dict[str, list[Floats]]:
+    """Return tags placed by chance under each null, (draws, N, 2) a stretch of signing.
+
+    The same for every setting, whose minima alone differ.
+    """
+    parts = nulls.stretches(take.manual, [], take.filled.rate_hz)
+    out = {}
+    for null in nulls.Null:
+        rng = seeds.stream(seed, corpus, take.name, str(null), "open choices")
+        out[str(null)] = [nulls.placed(part, null, draws, rng) for part in parts]
+    return out
+
+
+def _near(take: Take, minima: Floats, random: dict[str, list[Floats]], margin_s: float) -> _Near:
+    """Return how near the minima of a hand lie to tags, all and those that bound a transition."""
+    parts = nulls.stretches(take.manual, minima, take.filled.rate_hz, margin_s=margin_s)
+    observed = [nulls.distances(part.signs_s, part.minima_s) for part in parts]
+    by_chance = {
+        null: [nulls.distances(r, part.minima_s) for r, part in zip(tags, parts, strict=True)]
+        for null, tags in random.items()
+    }
+    tags, chance = {}, {}
+    for kind in (ALL, TRANSITION):
+        flags = [part.counted(kind == TRANSITION) for part in parts]
+        tags[kind] = np.concatenate([d[f] for d, f in zip(observed, flags, strict=True)])
+        for null, found in by_chance.items():
+            picked = [d[:, f] for d, f in zip(found, flags, strict=True)]
+            chance[null, kind] = np.concatenate(picked, axis=1)
+    return _Near(tags, chance)
 
 
 def _minima(
@@ -202,7 +267,8 @@ def _minima(
     rate = filled.rate_hz
     method = {**dict(settings.kinematics.lowpass), "cutoff_hz": min(cutoff_hz, 0.45 * rate)}
     speeds = {
-        hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate) for hand in HANDS
+        hand: speed(lowpass(filled.track(f"{hand}_wrist"), rate, **method), rate)
+        for hand in hands_of(filled.joints)
     }
     fastest = max(float(np.nanpercentile(s, 95)) for s in speeds.values())
     spacing = settings.kinematics.minima.spacing_s
@@ -212,9 +278,10 @@ def _minima(
             yield hand, prominence, times[depths >= prominence * fastest]
 
 
-def _distances(
+def distances_between(
     filled: Recording, orientations: Floats | None, start: Floats, end: Floats, joints: list[int]
 ) -> tuple[Floats, Floats]:
+    """Return the geodesic and Euclidean distances of the postures at two times (N,) each, in s."""
     first, second = (
         np.clip(np.rint(t * filled.rate_hz), 0, filled.frames - 1).astype(int) for t in (start, end)
     )
@@ -256,15 +323,18 @@ def _refined_rows(
     distance = np.where(known.any(axis=0), mean, np.nan)
     types = np.array(found.types, dtype=str)[there]
     yield from _duration_rows(about, durations[there], distance, types, settings)
-    assert found.chance is not None
-    share = found.near / found.tags
-    bound = float(np.quantile(found.chance / found.tags, 0.975))
-    yield {**about, "claim": "N19", "statistic": "share of tags with a minimum in the window",
-           "estimate": share, "bound": bound, "holds": share > bound, "n": found.tags,
-           "note": "bound: 97.5 % of sets of random tags"}  # fmt: skip
-    moved = found.moved / found.tags
-    yield {**about, "claim": "N20", "statistic": "share of tags moved", "estimate": moved,
-           "bound": MAJORITY, "holds": moved > MAJORITY, "n": found.tags}  # fmt: skip
+    moved = found.moved / found.tags[ALL]
+    for null in map(str, nulls.Null):
+        where, how = {**about, "null": null}, f"bound: 97.5 % of sets of random tags, {null}"
+        share, bound = found.share(TRANSITION), found.chance_high(null, TRANSITION)
+        yield {**where, "claim": "N19", "estimate": share, "bound": bound, "holds": share > bound,
+               "statistic": "share of transitions' tags with a minimum in the window",
+               "n": found.tags[TRANSITION], "note": how}  # fmt: skip
+        share, bound = found.share(ALL), found.chance_high(null, ALL)
+        yield {**where, "claim": "N20", "statistic": "share of tags with a minimum in the window",
+               "estimate": share, "bound": max(bound, MAJORITY),
+               "holds": moved > MAJORITY and share > bound, "n": found.tags[ALL],
+               "note": f"{moved:.3f} moved; {how}, or the majority"}  # fmt: skip
     change = float(np.median(np.concatenate(found.changes))) if len(durations) else np.nan
     yield {**about, "claim": "N21", "statistic": "median change of duration (s)",
            "estimate": change, "bound": VISIBLE_S, "holds": change >= VISIBLE_S,

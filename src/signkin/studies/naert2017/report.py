@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import pandas as pd
@@ -13,6 +13,7 @@ import pandas as pd
 from signkin.corpus import Corpus
 from signkin.errors import listed
 from signkin.exhibits import Exhibit, exhibits
+from signkin.report.attempts import attempted
 from signkin.report.exhibit_views import by_exhibit, exhibit_view
 from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.settings import Settings
@@ -104,13 +105,14 @@ def _views(source: Source) -> Iterator[tuple[str, View]]:
     for exhibit in source.shown.listing:
         chapter = _CHAPTER.get(exhibit.stem, "durations")
         if exhibit.stem in _TABLES:
-            yield chapter, _TABLES[exhibit.stem](source, exhibit)
+            table = partial(_TABLES[exhibit.stem], source, exhibit)
+            yield from ((chapter, view) for view in attempted(exhibit.title, table))
         elif exhibit.stem in captions:
             yield chapter, exhibit_view(exhibit, source.folder, captions[exhibit.stem])
-        for view in _following(source, exhibit):
-            yield chapter, view
-    for view in synthesis_report.views(source.folder, source.corpus.unit):
-        yield "truth", view
+        below = partial(_following, source, exhibit)
+        yield from ((chapter, view) for view in attempted(f"Below {exhibit.title}", below))
+    made = partial(synthesis_report.views, source.folder, source.corpus.unit)
+    yield from (("truth", view) for view in attempted("Made against captured", made))
     if source.corpus.simulator:
         yield from _simulation(source)
 

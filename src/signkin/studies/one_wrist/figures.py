@@ -69,6 +69,8 @@ def excerpt_points(
     rows: list[dict[str, Any]] = []
     for hand in HANDS:
         speed = here[f"{hand}_speed_{corpus.unit}_per_s"]
+        if speed.isna().all():  # a hand that was not recorded
+            continue
         top = float(speed.max())
         series: dict[str, tuple[Any, Any]] = {"speed": (time, speed)}
         for kind, known in events.items():
@@ -91,11 +93,12 @@ def excerpt_points(
 def draw(points: pd.DataFrame, excerpt: Excerpt, unit: str) -> Figure:
     """Draw an excerpt of both wrists with all events, and hit rates against chance."""
     excerpts = {f"{hand} wrist": hand for hand in HANDS}
+    shown = {p: hand for p, hand in excerpts.items() if (points["panel"] == p).any()}
     panels = [name for name in dict.fromkeys(points["panel"]) if name not in excerpts]
     columns = max(len(panels) // len(HANDS), 1)
     figure = plt.figure(figsize=(WIDTH_IN * 1.2, 3.6 + 2.5 * len(HANDS)))
     grid = figure.add_gridspec(4, columns, height_ratios=[1, 1, 1.55, 1.55])
-    for i, (panel, hand) in enumerate(excerpts.items()):
+    for i, (panel, hand) in enumerate(shown.items()):
         ax = figure.add_subplot(grid[i, :])
         mine = points[points["panel"] == panel]
         plot_excerpt(mine, hand, unit, excerpt.window, ax=ax, legend=() if i else excerpt.kinds)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
 
 from signkin.corpus import Corpus
-from signkin.report.page import FigureView, Section, TableView, figure_files
+from signkin.report.attempts import attempted
+from signkin.report.page import FigureView, Section, TableView, View, figure_files
 from signkin.studies.endres2013.report import P3, SIMULATED, badge, left_out
 from signkin.tables import read_table
 
@@ -57,7 +59,8 @@ def _continuous(folder: Path, name: str, corpus: Corpus) -> Section:
         svg=folder / "fig_one_wrist.svg",
         files=figure_files(folder / "fig_one_wrist"),
     )
-    views: list[TableView | FigureView] = [figure, compared, _wrists(folder)]
+    views: list[View] = [figure, compared]
+    views += attempted("Wrists in bins", partial(_wrists, folder))
     views += left_out(folder / "wrists_left_out.csv")
     text: Sequence[str] = [
         "The wrists of continuous recordings, binned as long series: do the segments of one paper "

@@ -81,7 +81,7 @@ TABLES = (
     ),
     Table(
         "utterances",
-        "results/naert2017/<corpus>/synthesis/*.csv with _parts in the name",
+        "results/naert2017/<corpus>/synthesis/utterances.csv, *_parts.csv",
         "a part of a synthetic utterance: a sign, or the transition before the next",
         (
             text("corpus", "corpus"),

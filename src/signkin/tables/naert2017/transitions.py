@@ -7,7 +7,7 @@ from signkin.tables.schema import LEAD, NOTE, SIGN, Column, Table, text
 _FINAL = (
     Table(
         "transitions",
-        "results/naert2017/<corpus>/transitions.csv",
+        "results/naert2017/<corpus>/transitions.csv, transitions_left_out.csv",
         "a transition between two signs of one utterance, for one segmentation and hand "
         "(Naert et al. 2017, section 5.1)",
         (

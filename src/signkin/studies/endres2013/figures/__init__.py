@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from signkin.errors import SignkinError, listed
-from signkin.exhibits import FILE, Exhibit
-from signkin.report.drawn import Drawn
+from signkin.errors import SignkinError
+from signkin.exhibits import Exhibit
+from signkin.report.drawn import Drawn, drawings
 from signkin.studies.endres2013.figures import (
     fig01,
     fig03,
@@ -19,27 +19,50 @@ from signkin.studies.endres2013.figures import (
     fig07,
     fig_a1,
 )
-from signkin.studies.endres2013.figures.sources import Sources
+from signkin.studies.endres2013.figures.sources import Sources, no_truth
+from signkin.studies.endres2013.single_signs import POWERLAW
+
+Draw = Callable[[Sources], Drawn]
+
+
+def _with_truth(draw_it: Draw) -> Draw:
+    """Refuse to draw hit rates where no trajectory has true boundaries."""
+
+    def drawn(sources: Sources) -> Drawn:
+        rates = sources.rates[sources.rates["dataset"] == POWERLAW]
+        if not (rates["n"] > rates["without_truth"]).any():
+            raise no_truth(f"corpus {sources.corpus}")
+        return draw_it(sources)
+
+    return drawn
+
+
+def _binned(draw_it: Draw) -> Draw:
+    """Refuse to draw posteriors of orders where no trajectory was binned."""
+
+    def drawn(sources: Sources) -> Drawn:
+        if sources.orders.empty:
+            raise SignkinError(
+                "no recording could be binned",
+                place=f"corpus {sources.corpus}",
+                expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+            )
+        return draw_it(sources)
+
+    return drawn
+
 
 DRAWINGS: dict[str, Callable[[Sources], Drawn]] = {
     "fig01": fig01.drawn,
     "fig03": fig03.drawn,
     "fig04": fig04.drawn,
-    "fig05": fig05.drawn,
-    "fig06": fig06.drawn,
-    "fig07": fig07.drawn,
-    "figA1": fig_a1.drawn,
+    "fig05": _with_truth(fig05.drawn),
+    "fig06": _with_truth(fig06.drawn),
+    "fig07": _binned(fig07.drawn),
+    "figA1": _binned(fig_a1.drawn),
 }
 
 
 def draw(sources: Sources, listing: Iterable[Exhibit]) -> dict[str, Drawn]:
     """Draw the listed figures of a corpus of single signs, by the stem of their files."""
-    wanted = [exhibit.stem for exhibit in listing]
-    if unknown := [stem for stem in wanted if stem not in DRAWINGS]:
-        raise SignkinError(
-            f"{listed(unknown)} in the list, but not drawn",
-            file=FILE,
-            expected=listed(DRAWINGS),
-            todo="Add the figure to studies/endres2013/figures.",
-        )
-    return {stem: DRAWINGS[stem](sources) for stem in wanted}
+    return drawings(DRAWINGS, sources, listing)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +51,8 @@ class Sources:
     """The tables of a corpus of single signs, and the recording that is its example.
 
     orders, rates, lines, tests: the tables `order_posteriors`, `hit_rates`, `chance_lines`,
-    `order_tests`. unit: of length, m or px.
+    `order_tests`. unit: of length, m or px. find_example: the example; a SignkinError where no
+    recording can be one.
     """
 
     corpus: str
@@ -59,7 +61,12 @@ class Sources:
     rates: pd.DataFrame
     lines: pd.DataFrame
     tests: pd.DataFrame
-    example: Example
+    find_example: Callable[[], Example]
+
+    @cached_property
+    def example(self) -> Example:
+        """The recording of Fig. 1, 3A and 4."""
+        return self.find_example()
 
 
 def read_sources(
@@ -71,19 +78,23 @@ def read_sources(
     frames: its tables, those of TABLES. shards: the files `recordings`, `trajectories` and
     `posteriors` of all shards. The example is the first recording that has a ground truth.
     """
-    truth = frames["ground_truth"]
+    orders, rates, lines, tests = (frames[kind] for kind in TABLES[1:])
+    found = partial(_example, corpus, frames["ground_truth"], shards, settings, seed)
+    return Sources(corpus.name, corpus.unit, orders, rates, lines, tests, found)
+
+
+def _example(
+    corpus: Corpus, truth: pd.DataFrame, shards: Mapping[str, Sequence[str]],
+    settings: CutSettings, seed: int,
+) -> Example:  # fmt: skip
     if truth.empty:
-        raise SignkinError(
-            "no recording has a power-law ground truth",
-            file=corpus.folder,
-            expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
-        )
+        raise no_truth(corpus.folder)
     name = str(truth["recording"].iloc[0])
     (recording,) = (r for path in shards["recordings"] for r in read_recordings(Path(path), [name]))
     binned = {
         t.dataset: t.x for t in read_trajectories(shards["trajectories"]) if t.recording == name
     }
-    example = Example(
+    return Example(
         name,
         movement_of(recording, settings).wrist.axes,
         example_points(corpus, recording, settings, seed),
@@ -92,5 +103,12 @@ def read_sources(
         binned[RECORDED],
         binned[POWERLAW],
     )
-    orders, rates, lines, tests = (frames[kind] for kind in TABLES[1:])
-    return Sources(corpus.name, corpus.unit, orders, rates, lines, tests, example)
+
+
+def no_truth(where: str | Path) -> SignkinError:
+    """Return the error of a corpus whose trajectories have no true boundaries."""
+    return SignkinError(
+        "no recording has a power-law ground truth",
+        file=where,
+        expected="one or more; results/endres2013/<corpus>/left_out.csv tells why not",
+    )

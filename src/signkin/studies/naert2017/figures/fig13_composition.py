@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from signkin.coarticulation.synthesis import METHODS
 from signkin.figures import skeletons, style
-from signkin.joints import HANDS
+from signkin.joints import wrists_of
 from signkin.report.drawn import Drawn
 from signkin.studies.naert2017.figures.chosen_signs import FAR, far_pair
 from signkin.studies.naert2017.figures.skeleton_parts import (
@@ -78,7 +78,7 @@ def what_is_shown(base: Database, settings: SynthesisSettings, printed: Array) -
         durations = {"simple_bounded": float(settings.durations.highest_s)}
     hand = busier(signs)
     model = "surface" if "surface" in durations else next(reversed(durations))
-    wrists = [take.index(f"{h}_wrist") for h in HANDS]
+    wrists = [take.index(wrist) for wrist in wrists_of(take.joints)]
     return Shown(
         signs=signs,
         pair=pair,
@@ -102,7 +102,7 @@ def what_is_shown(base: Database, settings: SynthesisSettings, printed: Array) -
 def data(base: Database, shown: Shown) -> pd.DataFrame:
     """Return postures, the wrists' paths, durations and speeds as the table `skeletons`."""
     unit, take = base.corpus.unit, shown.signs[0].recording
-    joints, wrists = take.joints, [f"{hand}_wrist" for hand in HANDS]
+    joints, wrists = take.joints, wrists_of(take.joints)
     rows = []
     for posture, name in zip(shown.ends, shown.names, strict=True):
         rows += joint_rows(joints, posture, "postures", name.replace("\n", " "), 0.0, unit)

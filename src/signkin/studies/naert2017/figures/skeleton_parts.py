@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from signkin import tables
 from signkin.coarticulation.synthesis import Sign, Transition, fitted
-from signkin.joints import HANDS
+from signkin.joints import HANDS, hands_of
 from signkin.kinematics.filters import lowpass
 from signkin.report.drawn import Drawn
 from signkin.studies.naert2017.figures.notice import notice
@@ -119,7 +119,7 @@ def busier(signs: Signs) -> str:
                                                    strict=True))  # fmt: skip
     ways = {
         hand: float(np.linalg.norm(a[i] - b[i]))
-        for hand in HANDS
+        for hand in hands_of(signs[0].recording.joints)
         for i in [signs[0].recording.index(f"{hand}_wrist")]
     }
     known = {hand: way for hand, way in ways.items() if np.isfinite(way)}

@@ -17,7 +17,7 @@ from signkin.coarticulation.synthesis import (
     Transition,
     steps_of,
 )
-from signkin.joints import HANDS
+from signkin.joints import wrists_of
 from signkin.settings.sections import Kinematics
 from signkin.stages.ingest import lead
 from signkin.studies.naert2017.settings import SynthesisSettings
@@ -211,7 +211,7 @@ def _errors(
         notes.append("no frame between the tags: no position error")
     else:
         take = true.signs[0].recording
-        wrists = [take.index(f"{hand}_wrist") for hand in HANDS]
+        wrists = [take.index(wrist) for wrist in wrists_of(take.joints)]
         errors = aligned_errors(made.motion.positions, true.postures)
         out[f"error_{unit}"] = round(_mean(errors), DECIMALS)
         out[f"wrist_error_{unit}"] = round(_mean(errors[:, wrists]), DECIMALS)

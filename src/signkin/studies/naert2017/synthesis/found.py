@@ -10,7 +10,7 @@ import pandas as pd
 from signkin import tables
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
-from signkin.joints import HANDS
+from signkin.joints import hands_of
 from signkin.kinematics.derivatives import speed
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import stretches
@@ -70,9 +70,9 @@ def between_rests(take: Recording, settings: SynthesisSettings) -> tuple[float, 
     rules, rate = settings.synthesis, take.rate_hz
     paths = {
         hand: lowpass(take.track(f"{hand}_wrist"), rate, **dict(settings.kinematics.lowpass))
-        for hand in HANDS
+        for hand in hands_of(take.joints)
     }
-    heights = np.stack([paths[hand][:, 2] for hand in HANDS])
+    heights = np.stack([paths[hand][:, 2] for hand in paths])
     height = np.nanmax(heights, axis=0)
     low, high = np.nanmin(height), np.nanmax(height)
     raised = height > low + rules.found_raised * (high - low)
@@ -85,7 +85,7 @@ def between_rests(take: Recording, settings: SynthesisSettings) -> tuple[float, 
             todo="Give its interval in corpus.yaml: synthesis.signs.",
         )
     first, end = max(runs, key=lambda run: run[1] - run[0])
-    busier = max(HANDS, key=lambda hand: float(np.nanmean(paths[hand][first:end, 2])))
+    busier = max(paths, key=lambda hand: float(np.nanmean(paths[hand][first:end, 2])))
     moving = speed(paths[busier], rate)
     return (
         _settled(moving, first, 1, rules.found_still) / rate,

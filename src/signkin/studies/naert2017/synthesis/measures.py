@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signkin.joints import HANDS
+from signkin.joints import wrists_of
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.minima import minima_with_depth
 from signkin.recording import Recording
@@ -63,8 +63,8 @@ def measures(
 def spliced(
     before: Recording, last: int, between: Array, after: Recording, first: int
 ) -> tuple[Array, int, int]:
-    """Return the wrists' paths (F, 2, 3) through a transition, and its first and last frame."""
-    wrists = [before.index(f"{hand}_wrist") for hand in HANDS]
+    """Return the wrists' paths (F, H, 3) through a transition, and its first and last frame."""
+    wrists = [before.index(wrist) for wrist in wrists_of(before.joints)]
     context = round(CONTEXT_S * before.rate_hz)
     head = before.positions[max(0, last - context) : last, wrists]
     tail = after.positions[first + 1 : first + 1 + context, wrists]
@@ -74,7 +74,7 @@ def spliced(
 
 def least_depth(recording: Recording, settings: Kinematics) -> float:
     """Return how deep a minimum must be: the share of config of the faster hand's speed."""
-    wrists = [recording.index(f"{hand}_wrist") for hand in HANDS]
+    wrists = [recording.index(wrist) for wrist in wrists_of(recording.joints)]
     smooth = lowpass(recording.positions[:, wrists], recording.rate_hz, **dict(settings.lowpass))
     speed = np.linalg.norm(np.gradient(smooth, 1 / recording.rate_hz, axis=0), axis=-1)
     fastest = max((float(np.nanpercentile(s, 95)) for s in speed.T if not np.isnan(s).all()),

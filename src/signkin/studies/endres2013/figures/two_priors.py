@@ -11,8 +11,8 @@ from signkin.figures.style import WIDTH_IN
 from signkin.report.drawn import Drawn
 from signkin.studies.endres2013.figures.points import frame_of, hit_points, order_points, point
 from signkin.studies.endres2013.posteriors import FITTED_MAP
-from signkin.studies.endres2013.readings import FITTED_ORDER, printed_beside
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED
+from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside
 
 TITLES = {
     "3B": "3B  order posterior of refound order 3 (paper: 3)",
@@ -26,7 +26,7 @@ MARKED = {"3B": 3.0, "6": 3.0, "7": 4.0}
 
 
 def drawn(corpus: str, table: pd.DataFrame) -> Drawn:
-    """Draw the table `readings` of one corpus."""
+    """Draw the table `two_priors` of one corpus."""
     points = data(corpus, table)
     return Drawn(draw(points), points, caption(table))
 
