@@ -15,6 +15,7 @@ from signkin.exhibits import Exhibit, exhibits, of_groups
 from signkin.report.attempts import CANNOT, attempted
 from signkin.report.exhibit_views import by_exhibit
 from signkin.report.page import FigureView, Section, TableView, View, figure_files
+from signkin.studies.endres2013 import report_beside
 from signkin.tables import read_table
 
 ALL = "all"
@@ -94,7 +95,15 @@ def _single_signs(
             rates, tests = partial(_rates, folder, hit_window_s), partial(_tests, folder)
             yield from (("truth", view) for view in attempted("Hit rates", rates))
             yield from (("truth", view) for view in attempted("Tests of orders", tests))
+        if view.svg.stem == "fig07":
+            learnt = partial(report_beside.learnt, folder)
+            yield from (("recorded", one) for one in attempted("The prior learnt", learnt))
     yield "choices", _figure(folder, "order_choices", "Orders under all choices")
+    priors, doubts = (
+        partial(of, folder) for of in (report_beside.two_priors, report_beside.doubts)
+    )
+    yield from (("choices", one) for one in attempted("Two readings of the prior", priors))
+    yield from (("found", one) for one in attempted("Does the noise fit?", doubts))
     title = "Power laws of recorded movement, and of noise"
     yield "power-laws", _figure(folder, "recorded_laws", title, "law_pitfalls.csv")
     out = partial(left_out, folder / "left_out.csv")
