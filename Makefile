@@ -3,11 +3,13 @@
 # make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
 # make fetch CORPUS=...   get the files of a corpus that have a public address, and verify them
 # make test          set up and pass the tests
+# make fuzz          10,000 damaged files of each format against its reader (`make test`: 500)
 # make lint          its first half: style, types, import contracts
 # make coverage      which lines the unit tests run: a table, and build/coverage/index.html
 # make docs          the pages of docs/ and the API as a site: build/docs/index.html
 # make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
+# make audit-draws   10,000 data sets that exist for each check on print: how many are accused
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
@@ -20,7 +22,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all utterance fetch test lint unit coverage docs numbers settings bench lock bench-lock clean
+.PHONY: all utterance fetch test fuzz lint unit coverage docs numbers settings bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -56,6 +58,10 @@ unit: $(VENV)/ready
 	.ci/chromium
 	$(BIN)/pytest -n 2 --dist loadfile $(ARGS)
 
+fuzz: $(VENV)/ready
+	SIGNKIN_FUZZ=10000 $(BIN)/pytest -n 2 --dist load tests/unit/test_motion_fuzz.py \
+	  tests/unit/test_tag_fuzz.py $(ARGS)
+
 # Apart from `make test`, whose time it would double. What runs compiled, and the scripts that
 # Snakemake starts, are not seen.
 coverage: $(VENV)/ready
@@ -68,6 +74,9 @@ docs: $(VENV)/ready
 
 numbers: $(VENV)/ready
 	$(BIN)/python -m tools.numbers results '$(SIGNKIN_DATA)' $(ARGS)
+
+audit-draws: $(VENV)/ready
+	$(BIN)/python tests/support/audit_draws.py $(or $(ARGS),10000)
 
 # PyTorch, which one peer wants, is no part of the lock: see benchmarks/README.md.
 TORCH ?= torch==2.13.0

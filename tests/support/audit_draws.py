@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from decimal import ROUND_HALF_EVEN, ROUND_HALF_UP, Decimal
 from pathlib import Path
 
@@ -421,19 +422,27 @@ def accused(name: str, rng: Rng, folder: Path) -> list[str]:
     return [f"{given} {table!r}: {f.why}" for f in found if f.verdict == "inconsistent" or f.fault]
 
 
+def run(task: tuple[str, int]) -> tuple[str, int, float, float, list[str]]:
+    """Return a check, its draws, the mean and greatest time of one (s), and the accusations."""
+    name, draws = task
+    rng, start, worst, wrong = np.random.default_rng(16), time.process_time(), 0.0, []
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(draws):
+            before = time.process_time()
+            wrong += accused(name, rng, Path(folder))
+            worst = max(worst, time.process_time() - before)
+    return name, draws, (time.process_time() - start) / draws, worst, wrong
+
+
 def main(draws: int, names: list[str]) -> int:
     bad = 0
-    with tempfile.TemporaryDirectory() as folder:
-        for name in names or DRAWS:
-            rng, start, worst, wrong = np.random.default_rng(16), time.perf_counter(), 0.0, []
-            for _ in range(draws):
-                before = time.perf_counter()
-                wrong += accused(name, rng, Path(folder))
-                worst = max(worst, time.perf_counter() - before)
-            took = time.perf_counter() - start
-            each, slowest = took / draws * 1e3, worst * 1e3
-            told = f"{name:20s} {draws:6d} draws, {len(wrong):3d} accused"
-            print(f"{told}, {each:7.2f} ms each, {slowest:7.1f} ms the slowest", flush=True)
+    print("| check | draws | accused | mean time | slowest |\n|---|---|---|---|---|")
+    with ProcessPoolExecutor() as pool:
+        for name, n, each, worst, wrong in pool.map(
+            run, [(name, draws) for name in names or DRAWS]
+        ):
+            times = f"{each * 1e3:.1f} ms | {worst * 1e3:.0f} ms"
+            print(f"| {name} | {n:,} | {len(wrong)} | {times} |", flush=True)
             bad += len(wrong)
             for line in wrong[:3]:
                 print("   ", line)

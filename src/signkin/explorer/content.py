@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,12 @@ from signkin.explorer.syntheses import syntheses
 from signkin.joints import HANDS
 from signkin.recording import Recording
 from signkin.studies.endres2013.single_signs import movement_of
+from signkin.studies.naert2017.synthesis.database import database
 
 MOST_BYTES = 4_900_000  # of a page
 FRAME_BYTES = 160_000  # the page without its content
 SKELETON_BYTES = 3_200_000
-SYNTHESES_BYTES = 700_000
+SYNTHESES_BYTES = 1_300_000
 LEAST_SKELETON_BYTES = 200_000
 
 
@@ -63,11 +64,13 @@ def content(
         "densities": _densities(sources, recording, posteriors),
     }
     data["flags"] = events.flags(data)
+    data["transitions"] = _rows(data["transitions"])
     data["labels"] = list(labels.texts)
     data["troubles"] = _troubles(sources, name)
     room = MOST_BYTES - FRAME_BYTES - len(as_json(data))
-    room_for_body = min(SKELETON_BYTES, max(room - SYNTHESES_BYTES, LEAST_SKELETON_BYTES))
-    data["skeleton"] = skeleton(recording, room_for_body)
+    if len(sources.of("synthesis", name)):
+        room -= SYNTHESES_BYTES
+    data["skeleton"] = skeleton(recording, min(SKELETON_BYTES, max(room, LEAST_SKELETON_BYTES)))
     data["syntheses"] = _syntheses(sources, recording, data["skeleton"])
     data["missing"] = _missing(sources, recording, data)
     return data
@@ -99,10 +102,14 @@ def _syntheses(
     if not len(table):
         return None
     try:
-        return syntheses(
+        base = database(
             sources.corpus,
-            recording,
-            sources.tables["intervals"],
+            [recording],
+            sources.of("intervals", recording.name),
+            sources.settings.synthesis,
+        )
+        return syntheses(
+            base,
             table,
             sources.settings.synthesis,
             body["joints"],
@@ -111,6 +118,12 @@ def _syntheses(
         )
     except SignkinError as error:
         return {"methods": {}, "told": str(error)}
+
+
+def _rows(dictionaries: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+    """Return dictionaries of the same keys with each key once: there may be thousands of them."""
+    fields = list(dictionaries[0]) if dictionaries else []
+    return {"fields": fields, "rows": [list(row.values()) for row in dictionaries]}
 
 
 def _troubles(sources: Sources, name: str) -> list[str]:
@@ -143,7 +156,7 @@ def _missing(sources: Sources, recording: Recording, data: Mapping[str, Any]) ->
             out.append(f"Speed is drawn at {data['speeds']['rate']:.3g} Hz, for the length of it.")
     if not data["lanes"]:
         out.append("No tags: minima and binning are all that divides this recording.")
-    elif not data["transitions"]:
+    elif not data["transitions"]["rows"]:
         out.append("No transition: no two signs of this recording belong to one utterance.")
     elif not (data["syntheses"] or {}).get("methods"):
         out.append("No transition of this recording was synthesised.")
