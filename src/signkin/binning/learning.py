@@ -24,7 +24,7 @@ from signkin.errors import SignkinError
 Floats = NDArray[np.float64]
 
 # In nats, and in logarithms of the parameters: what neither changes a table nor a verdict.
-TOLERANCE_NATS, TOLERANCE_LOG = 0.05, 0.01
+TOLERANCE_NATS, TOLERANCE_LOG = 0.2, 0.03
 # Beyond these the evidence is flat: degrees of freedom so many that the noise is fixed.
 MOST_DOF, CONCENTRATIONS = 1e5, (1e-9, 1e9)
 

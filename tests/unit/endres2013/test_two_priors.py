@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import wishart
 
@@ -11,6 +12,7 @@ from signkin import tables
 from signkin.binning import Prior, fit
 from signkin.errors import SignkinError
 from signkin.figures.style import paper_style
+from signkin.studies.endres2013 import report_beside
 from signkin.studies.endres2013.figures.two_priors import TITLES, drawn
 from signkin.studies.endres2013.open_choices import priors
 from signkin.studies.endres2013.posteriors import prior_of, study
@@ -136,3 +138,29 @@ def test_the_figure_shows_both(both):
     assert len(one.figure.axes) == len(TITLES)
     assert set(one.data["series"]) == set(table["prior"])
     assert "nan" not in one.caption and "2 recordings" in one.caption
+
+
+def test_the_report_shows_both_and_whether_the_noise_fits(both, tmp_path):
+    _, binning, table = both
+    tables.write_table(table, tmp_path / "two_priors.csv", "two_priors", "m")
+    tables.write_table(binning, tmp_path / "binning.csv", "binning", "m")
+    (tmp_path / "two_priors.txt").write_text("Both.\n")
+    for kind in (".svg", ".pdf"):
+        (tmp_path / f"fig_two_priors{kind}").write_text("drawn")
+    figure, compared = report_beside.two_priors(tmp_path)
+    assert figure.caption == "Both." and figure.files[-1].name == "two_priors.csv"
+    assert set(compared.columns) <= set(compared.frame.columns)
+    (noise,) = report_beside.doubts(tmp_path)
+    shown = binning[binning["dataset"].isin([RECORDED, "powerlaw"])]
+    assert noise.frame["off"].sum() == (shown["noise_misfit"] > 3).sum()
+    assert f"of {len(shown)} fits lie above 3" in noise.caption
+    empty = pd.DataFrame(columns=tables.TABLES["learnt_prior"].names("m"))
+    tables.write_table(empty, tmp_path / "learnt_prior.csv", "learnt_prior", "m")
+    assert list(report_beside.learnt(tmp_path)) == []
+    row = {"corpus": "tiny", "held_out": "first", "prior": "learnt", "noise_sd_m": 2e-5, "note": ""}
+    tables.write_table(
+        pd.DataFrame([row], columns=empty.columns), tmp_path / "learnt_prior.csv", "learnt_prior",
+        "m",
+    )  # fmt: skip
+    (one,) = report_beside.learnt(tmp_path)
+    assert one.frame["noise_um"].tolist() == pytest.approx([20.0])
