@@ -9,6 +9,7 @@
 # make docs          the pages of docs/ and the API as a site: build/docs/index.html
 # make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
+# make audit-draws   10,000 data sets that exist for each check on print: how many are accused
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
 # make lock          pin the dependencies anew (needs uv)
 # make clean         take away what a run made; the environment stays
@@ -73,6 +74,9 @@ docs: $(VENV)/ready
 
 numbers: $(VENV)/ready
 	$(BIN)/python -m tools.numbers results '$(SIGNKIN_DATA)' $(ARGS)
+
+audit-draws: $(VENV)/ready
+	$(BIN)/python tests/support/audit_draws.py $(or $(ARGS),10000)
 
 # PyTorch, which one peer wants, is no part of the lock: see benchmarks/README.md.
 TORCH ?= torch==2.13.0

@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from decimal import ROUND_HALF_EVEN, ROUND_HALF_UP, Decimal
 from pathlib import Path
 
@@ -346,12 +347,15 @@ def confidence_interval(rng):
 def regression_row(rng):
     n, places = int(rng.integers(8, 150)), int(rng.integers(2, 4))
     x = rng.normal(size=n)
-    done = stats.linregress(x, x * rng.normal() + rng.normal(size=n))
+    y = x * rng.normal() + rng.normal(size=n)
+    done = stats.linregress(x, y)
+    sds = {"beta": put(rng, done.rvalue, 2), "sd_x": put(rng, x.std(ddof=1), 2),
+           "sd_y": put(rng, y.std(ddof=1), 2)}  # fmt: skip
     t = stats.t.isf(0.025, n - 2)
     return {"b": put(rng, done.slope, places), "se": put(rng, done.stderr, places),
             "t": put(rng, done.slope / done.stderr, 2), "p": put_p(rng, done.pvalue),
             "df": str(n - 2), "low": put(rng, done.slope - t * done.stderr, places),
-            "high": put(rng, done.slope + t * done.stderr, places)}, ""  # fmt: skip
+            "high": put(rng, done.slope + t * done.stderr, places), **sds}, ""  # fmt: skip
 
 
 @draw
@@ -421,19 +425,27 @@ def accused(name: str, rng: Rng, folder: Path) -> list[str]:
     return [f"{given} {table!r}: {f.why}" for f in found if f.verdict == "inconsistent" or f.fault]
 
 
+def run(task: tuple[str, int]) -> tuple[str, int, float, float, list[str]]:
+    """Return a check, its draws, the mean and greatest time of one (s), and the accusations."""
+    name, draws = task
+    rng, start, worst, wrong = np.random.default_rng(16), time.process_time(), 0.0, []
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(draws):
+            before = time.process_time()
+            wrong += accused(name, rng, Path(folder))
+            worst = max(worst, time.process_time() - before)
+    return name, draws, (time.process_time() - start) / draws, worst, wrong
+
+
 def main(draws: int, names: list[str]) -> int:
     bad = 0
-    with tempfile.TemporaryDirectory() as folder:
-        for name in names or DRAWS:
-            rng, start, worst, wrong = np.random.default_rng(16), time.perf_counter(), 0.0, []
-            for _ in range(draws):
-                before = time.perf_counter()
-                wrong += accused(name, rng, Path(folder))
-                worst = max(worst, time.perf_counter() - before)
-            took = time.perf_counter() - start
-            each, slowest = took / draws * 1e3, worst * 1e3
-            told = f"{name:20s} {draws:6d} draws, {len(wrong):3d} accused"
-            print(f"{told}, {each:7.2f} ms each, {slowest:7.1f} ms the slowest", flush=True)
+    print("| check | draws | accused | mean time | slowest |\n|---|---|---|---|---|")
+    with ProcessPoolExecutor() as pool:
+        for name, n, each, worst, wrong in pool.map(
+            run, [(name, draws) for name in names or DRAWS]
+        ):
+            times = f"{each * 1e3:.1f} ms | {worst * 1e3:.0f} ms"
+            print(f"| {name} | {n:,} | {len(wrong)} | {times} |", flush=True)
             bad += len(wrong)
             for line in wrong[:3]:
                 print("   ", line)

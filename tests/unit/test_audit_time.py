@@ -10,7 +10,9 @@ from signkin.audit import grimmer
 from signkin.audit.commands import findings_of
 from signkin.audit.ledger import audit
 from signkin.audit.paper import read_paper
+from signkin.audit.registry import PUBLISHED
 from signkin.audit.whole import possible
+from tools import audit_time
 
 MOST = 1.5  # seconds of processor time; under one on a machine of its own
 
@@ -34,6 +36,12 @@ def test_means_and_sds_take_a_second(tmp_path, n, mean, sd, grain):
         assert took(lambda every=every: findings_of("grimmer", every, tmp_path)) < MOST
     bounds = {**given, "low": "0", "high": "1000"}
     assert took(lambda: findings_of("range_possible", bounds, tmp_path)) < MOST
+
+
+@pytest.mark.parametrize("name", sorted(PUBLISHED))
+def test_every_check_takes_a_second_at_every_size(tmp_path, name):
+    for n in audit_time.SIZES if name in audit_time.CALLS else (10,):
+        assert audit_time.took(name, n, tmp_path) < MOST
 
 
 @pytest.mark.parametrize("n", ["10", "1000", "10000"])

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from signkin.audit.whole import Pair
 
 MOST_STATES = 14_000_000  # numbers of 8 bytes
-MOST_ADDED = 80_000_000  # additions, about half a second
-MOST_SOLVED = 12_000_000  # equations for three values, about half a second
+MOST_ADDED = 60_000_000  # additions, about half a second
+MOST_SOLVED = 8_000_000  # equations for three values, about half a second
 MOST_COUNT = 2**62
 Counts = NDArray[np.int64]
 
