@@ -347,12 +347,15 @@ def confidence_interval(rng):
 def regression_row(rng):
     n, places = int(rng.integers(8, 150)), int(rng.integers(2, 4))
     x = rng.normal(size=n)
-    done = stats.linregress(x, x * rng.normal() + rng.normal(size=n))
+    y = x * rng.normal() + rng.normal(size=n)
+    done = stats.linregress(x, y)
+    sds = {"beta": put(rng, done.rvalue, 2), "sd_x": put(rng, x.std(ddof=1), 2),
+           "sd_y": put(rng, y.std(ddof=1), 2)}  # fmt: skip
     t = stats.t.isf(0.025, n - 2)
     return {"b": put(rng, done.slope, places), "se": put(rng, done.stderr, places),
             "t": put(rng, done.slope / done.stderr, 2), "p": put_p(rng, done.pvalue),
             "df": str(n - 2), "low": put(rng, done.slope - t * done.stderr, places),
-            "high": put(rng, done.slope + t * done.stderr, places)}, ""  # fmt: skip
+            "high": put(rng, done.slope + t * done.stderr, places), **sds}, ""  # fmt: skip
 
 
 @draw

@@ -68,10 +68,11 @@ def content(
     data["labels"] = list(labels.texts)
     data["troubles"] = _troubles(sources, name)
     room = MOST_BYTES - FRAME_BYTES - len(as_json(data))
-    if len(sources.of("synthesis", name)):
-        room -= SYNTHESES_BYTES
-    data["skeleton"] = skeleton(recording, min(SKELETON_BYTES, max(room, LEAST_SKELETON_BYTES)))
+    kept = SYNTHESES_BYTES if len(sources.of("synthesis", name)) else 0
+    data["skeleton"] = _skeleton(recording, room - kept)
     data["syntheses"] = _syntheses(sources, recording, data["skeleton"])
+    if kept and not data["syntheses"]["methods"]:  # what was kept for them is the skeleton's
+        data["skeleton"] = _skeleton(recording, room)
     data["missing"] = _missing(sources, recording, data)
     return data
 
@@ -80,6 +81,10 @@ def as_json(data: Mapping[str, Any]) -> str:
     """Return the content as JSON that may stand in a page: no letter of it closes a tag."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _skeleton(recording: Recording, room: int) -> Mapping[str, Any]:
+    return skeleton(recording, min(SKELETON_BYTES, max(room, LEAST_SKELETON_BYTES)))
 
 
 def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> list[dict[str, Any]]:

@@ -21,19 +21,19 @@ from signkin.pages.ledger import run_ledger, told
 from signkin.report.page import FigureView, Page, Section, TableView, render
 from signkin.tables import write_table
 
-COLUMNS = {
+COLUMNS = {  # what a telephone shows first comes first
     "check": "check",
     "item": "row",
-    "reads": "how it is read",
-    "settings": "with",
+    "verdict": "finding",
+    "why": "why",
     "printed": "printed",
     "recomputed": "recomputed",
     "interval": "rounding allows",
-    "verdict": "finding",
-    "why": "why",
-    "hand": "by hand",
     "nearest": "would be consistent",
     "severity": "severity",
+    "settings": "with",
+    "reads": "how it is read",
+    "hand": "by hand",
 }
 
 
@@ -145,8 +145,9 @@ def _verdicts(paper: Paper, ledger: Ledger, folder: Path) -> Section:
     by_check = done.groupby("check")["verdict"].value_counts().unstack(fill_value=0)
     told_checks = ", ".join(f"{name} ({int(row.sum())})" for name, row in by_check.iterrows())
     rows = claims.rename(columns={"note": "why"})  # notes would stand below the table
-    columns = {"id": ("claim", ""), "claim": ("what is claimed", ""), "location": ("place", ""),
-               "verdict": ("verdict", "verdict"), "why": ("why", "")}  # fmt: skip
+    columns = {"id": ("claim", ""), "verdict": ("verdict", "verdict"),
+               "claim": ("what is claimed", ""), "location": ("place", ""),
+               "why": ("why", "")}  # fmt: skip
     if rows["evidence"].nunique() > 1:
         columns = {"evidence": ("evidence", ""), **columns}
     return Section(

@@ -301,16 +301,24 @@ def _allows(read: PrintedP, low: float, high: float) -> bool:
 def regression_row(
     context: OnPrint, table: str = "", b: str = "b", se: str = "se", t: str = "", p: str = "",
     df: str = "", low: str = "", high: str = "", level: str = "95", alpha: str = "0.05",
+    beta: str = "", sd_x: str = "", sd_y: str = "",
 ) -> list[Finding]:  # fmt: skip
     """In a row of a regression t is b over its SE, p is that of t, and the interval fits.
+
+    beta: the standardised coefficient, b times the SD of the predictor (sd_x) over that of the
+    outcome (sd_y).
 
     df: of t; without it the normal distribution, or any t with 3 degrees of freedom or more.
     With a table: columns.
     """
-    columns = {"b": b, "se": se, "t": t, "p": p, "df": df, "low": low, "high": high}
+    columns = {"b": b, "se": se, "t": t, "p": p, "df": df, "low": low, "high": high,
+               "beta": beta, "sd_x": sd_x, "sd_y": sd_y}  # fmt: skip
     columns = {role: text for role, text in columns.items() if text}
-    if not {"t", "p", "low"} & set(columns):
-        raise SignkinError("nothing to set b and its SE against", expected="t, p, or low and high")
+    if not {"t", "p", "low", "beta"} & set(columns):
+        raise SignkinError("nothing to set b and its SE against",
+                           expected="t, p, low and high, or beta with sd_x and sd_y")  # fmt: skip
+    if beta and not (sd_x and sd_y):
+        raise SignkinError("beta without the SDs", expected="sd_x and sd_y")
     share = float(exactly(level)) / 100
 
     def judge(row: Row) -> Finding:
@@ -345,6 +353,8 @@ def _regression(row: Row, share: float, alpha: str) -> Finding:
             if not (min(values) - 1e-9 <= given[2] and given[1] <= max(values) + 1e-9):
                 end = e[0] + way * times[0] * error[0]
                 wrong.append(f"the {name} end is {end:.4g} or beyond, not {row[name]}")
+    if all(row.cells.get(role, "") not in ABSENT for role in ("beta", "sd_x", "sd_y")):
+        wrong += _beta(row, e)
     found = f"t = {by_hand:.4g}"
     printed = ", ".join(f"{k} {v}" for k, v in row.cells.items() if v)
     why = f"b / SE = {row['b']} / {row['se']} is {by_hand:.4g}"
@@ -353,6 +363,18 @@ def _regression(row: Row, share: float, alpha: str) -> Finding:
                    f"t {min(corners):.4g} to {max(corners):.4g}", hand="b / SE; p of t with df",
                    nearest="; ".join(wrong), severity=(DECISION if severe else DIGITS) if wrong
                    else "")  # fmt: skip
+
+
+def _beta(row: Row, b: Ends) -> list[str]:
+    """Return what is wrong with a standardised coefficient: it is b sd_x / sd_y."""
+    x, y = ends(row["sd_x"]), ends(row["sd_y"])
+    if y[1] <= 0 or x[1] < 0:
+        raise SignkinError(f"the SDs are {row['sd_x']} and {row['sd_y']}",
+                           expected="numbers above 0")  # fmt: skip
+    values = [s * p / q for s in b[1:] for p in x[1:] for q in y[1:]]
+    if within(row["beta"], min(values), max(values)):
+        return []
+    return [f"b sd_x / sd_y is {b[0] * x[0] / y[0]:.4g}, not {row['beta']}"]
 
 
 @on_print(

@@ -266,16 +266,21 @@ def _power(n: int, alpha: float) -> float:
     "columns", {"table": "table1.csv", "columns": ["mean", "sd"]},
     "group,mean,sd\na,4.10,0.90\nb,4.00,1.00\nc,7.00,0.80\n",
 )  # fmt: skip
-def rows_twice(context: OnPrint, table: str, columns: Sequence[str]) -> list[Finding]:
+def rows_twice(
+    context: OnPrint, table: str, columns: Sequence[str], others: Sequence[str] = ()
+) -> list[Finding]:
     """No two rows have the same numbers in these columns.
 
+    others: further tables with the same columns, whose rows are set against these, too.
     A question, no contradiction: rows that stand twice are told as undecidable.
     """
     seen: dict[tuple[str, ...], list[str]] = {}
-    for row in context.paper.table(table):
-        key = tuple(row[column].strip() for column in columns)
-        if not all(text in ABSENT for text in key):
-            seen.setdefault(key, []).append(next(iter(row.cells.values())))
+    for name in (table, *others):
+        for row in context.paper.table(name):
+            key = tuple(row[column].strip() for column in columns)
+            if not all(text in ABSENT for text in key):
+                first = next(iter(row.cells.values()))
+                seen.setdefault(key, []).append(f"{first} of {name}" if others else first)
     twice = [(key, names) for key, names in seen.items() if len(names) > 1]
     source = context.source(table)
     if not twice:
