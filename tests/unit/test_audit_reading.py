@@ -240,7 +240,7 @@ def test_a_table_becomes_claims_with_questions(tmp_path, capsys):
 @pytest.mark.parametrize(
     "name, content, sentence",
     [
-        ("a.pdf", b"%PDF-1.4", "it is a PDF"),
+        ("a.pdf", b"%PDF-1.4", "cannot be read as a PDF"),
         ("a.txt", b"nothing here", "nothing that could be checked"),
         ("a.txt", b"\xff\xfe", "is not UTF-8"),
         ("a.csv", b"x,y\n1,2\n", "nothing that could be checked"),
