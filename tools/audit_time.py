@@ -74,7 +74,9 @@ CALLS: dict[str, Callable[[int], Call]] = {
     "chi_squared": lambda n: ({"counts": _counts(n), "p": ".5"}, ""),
     "odds_ratio": lambda n: ({"counts": _counts(n), "odds_ratio": "1.1"}, ""),
     "effect_size": lambda n: (
-        {"effect": "d", "value": "0.5", "kind": "t", "statistic": "2.1", "n": [str(n)] * 2}, ""),
+        {"effect": "d", "value": "0.5", "kind": "t", "statistic": "2.1", "n": [str(n), str(n)]},
+        "",
+    ),
     "standard_error": lambda n: ({"n": str(n), "sd": "1.2", "se": "0.3"}, ""),
     "confidence_interval": lambda n: (
         {"estimate": "0.4", "low": "0.1", "high": "0.7", "df": str(n), "p": ".9"}, ""),

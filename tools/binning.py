@@ -181,9 +181,11 @@ def single_bins(posterior: Posterior, order: int) -> Ints:
     return np.sort(best[: posterior.map_count(order)])
 
 
-def outcome(of: Takes, settings: Settings, variant: Variant) -> Outcome:
-    """Bin the trajectories of a corpus under a variant."""
-    trajectories = cut(of, settings, variant)
+def outcome(
+    of: Takes, settings: Settings, variant: Variant, known: list[Trajectory] | None = None
+) -> Outcome:
+    """Bin the trajectories of a corpus under a variant; known: as `cut` returns them for it."""
+    trajectories = cut(of, settings, variant) if known is None else known
     fits = binned(of, trajectories, settings, variant)
     by_kind = {
         kind: [f for t, f in zip(trajectories, fits, strict=True) if t.dataset == kind]

@@ -1,6 +1,6 @@
 """Write the numbers of docs/interpretations.md into their marked places.
 
-python -m tools.numbers RESULTS DATA [naert2017] [powerlaw] [binning]
+python -m tools.numbers RESULTS DATA [naert2017] [powerlaw] [binning] [readings] [order_map]
 
 RESULTS: the results folder of a finished run. DATA: the folder of the real recordings. Prints every
 table, also those that the page only quotes, and fills the places that a program has on the page;
@@ -20,6 +20,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -50,7 +51,11 @@ PROGRAMS = {
         ("seed", "powerlaw", "binning"),
         ("isl-sim", "isl-kinect", "auslan-hq", "lsf-sim", "dgs-1984189", "libras"),
     ),
+    "readings": Program(("seed", "powerlaw", "binning"), ("isl-sim", "isl-kinect", "auslan-hq")),
+    "order_map": Program(("seed", "powerlaw", "binning"), ("isl-sim",)),
 }
+# Keys that came later, and that leave everything as it was where they are null.
+ADDED = ("binning.prior.length_unit",)
 
 
 def _digest(parts: Iterable[bytes]) -> str:
@@ -68,10 +73,22 @@ def _described(folder: Path) -> list[bytes]:
     ]
 
 
+def _without_added(settings: dict[str, Any]) -> dict[str, Any]:
+    """Return settings without the keys that came later and are null: numbers do not know them."""
+    for path in ADDED:
+        *above, last = path.split(".")
+        place = settings
+        for name in above:
+            place = place.get(name, {})
+        if last in place and place[last] is None:
+            del place[last]
+    return settings
+
+
 def inputs(program: str) -> dict[str, str]:
     """Return digests of what the numbers of a program depend on, as they are now."""
     of = PROGRAMS[program]
-    chosen = shipped().model_dump(include=set(of.sections))
+    chosen = _without_added(shipped().model_dump(include=set(of.sections)))
     corpora = [_described(ROOT / "corpora" / corpus) for corpus in of.corpora]
     return {
         "settings": _digest([json.dumps(chosen, sort_keys=True).encode()]),

@@ -50,6 +50,7 @@ def write_isl(folder: Path) -> None:
     """Write isl-sim: the motion of every recording."""
     folder.mkdir(parents=True)
     corpus = load_corpus(ROOT / "corpora" / "isl-sim")
-    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, SETTINGS.seed)
+    recipe = isl.Recipe(**dict(SETTINGS.simulation.isl))
+    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, SETTINGS.seed, recipe)
     for entry, take in zip(corpus.entries, takes, strict=True):
         write_wide_csv(folder / entry.motion, isl.motion_columns(take), corpus.noise_sd)

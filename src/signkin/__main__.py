@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import time
 from importlib.util import find_spec
 from pathlib import Path
 from shlex import quote
@@ -18,6 +19,17 @@ from shlex import quote
 from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
+
+RUN_EXAMPLES = """examples:
+  signkin run                          all corpora whose recordings are there
+  signkin run -n                       what would be done
+  signkin run --cores 4 -- naert2017   one study, on four cores
+"""
+SPEAK_EXAMPLES = """examples:
+  signkin utterance dgs-1984189 CAT3 BIRD1
+  signkin utterance boston104 "JOHN BUY HOUSE" --method interpolation
+  signkin utterance lsf-sim ONE-07,TWO-07 --config other.yaml --name mine
+"""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -30,8 +42,13 @@ def main(arguments: list[str] | None = None) -> int:
         return audit.main(words[1:], audit_papers)
     parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    commands.add_parser("run", help="run the workflow; further arguments go to snakemake")
-    speak = commands.add_parser("utterance", help="an utterance from the signs of a corpus")
+    plain = argparse.RawDescriptionHelpFormatter
+    commands.add_parser("run", help="run the workflow; further arguments go to snakemake",
+                        epilog=RUN_EXAMPLES, formatter_class=plain)  # fmt: skip
+    speak = commands.add_parser("utterance", help="an utterance from the signs of a corpus",
+                                epilog=SPEAK_EXAMPLES, formatter_class=plain)  # fmt: skip
+    speak.add_argument("--config", type=Path, default=Path("config.yaml"), metavar="FILE",
+                       help="instead of this folder's config.yaml")  # fmt: skip
     speak.add_argument("corpus", help="a corpus of this folder's config.yaml")
     speak.add_argument("glosses", nargs="+", help="glosses in order; one text with spaces, or "
                        "commas where glosses hold spaces, is taken apart")  # fmt: skip
@@ -65,11 +82,16 @@ def say(told: argparse.Namespace) -> int:
     changes = {k: v for k in ("method", "duration", "retrieval") if (v := getattr(told, k))}
     try:
         home = workflow_home()
-        targets = prerequisites(told.corpus, changes, home)
-        status = run_workflow(["--quiet", "all", "--", *targets])
+        targets = prerequisites(told.corpus, changes, home, told.config)
+        # This corpus alone: another one that is broken is none of its business.
+        only = ["--config", f'corpora=["{told.corpus}"]']
+        if told.config.is_file() and told.config != Path("config.yaml"):
+            only = ["--configfile", str(told.config), *only]
+        status = run_workflow(["--quiet", "all", *only, "--", *targets])
         if status:
             return status
-        for line in speak(told.corpus, glosses_of(told.glosses), told.name, changes, home):
+        glosses = glosses_of(told.glosses)
+        for line in speak(told.corpus, glosses, told.name, changes, home, told.config):
             print(line)
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
@@ -100,8 +122,10 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.binning.compiled import forget_stale_kernels
     from signkin.checkout import workflow_home
     from signkin.child import run_child
+    from signkin.cost import failure
     from signkin.errors import SignkinError
     from signkin.lock import held
+    from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
     from signkin.yaml_file import read_yaml
 
@@ -119,6 +143,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     except SignkinError as error:
         print(f"signkin: {error}", file=sys.stderr)
         return 1
+    started = time.time()
     state = folder / ".snakemake"
     state.mkdir(exist_ok=True)
     with held(state / "signkin.lock") as alone:
@@ -135,7 +160,13 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         status = run_child(command, folder, {**os.environ, **threads}, alone)
     page = folder / "results" / "report" / "index.html"
     if status == 0 and page.exists() and "--" not in extra:
+        write_times(folder / "logs", page.parent)
+        summary = page.with_name("summary.txt")
+        if summary.is_file():
+            print(summary.read_text(encoding="utf-8").rstrip())
         print(f"The report: {page}")
+    if status and (failed := failure(folder / "logs", started)):
+        print(failed, file=sys.stderr)
     return status
 
 

@@ -42,6 +42,7 @@ class Entry:
     repetition, from 1; empty and None for a recording of continuous signing.
     from_s, to_s: the stretch of the annotation's time that the recording is, where the
     annotation is that of a longer one; clock_offset_s: added to the annotation's times besides.
+    rating, rating_note: what the owner thinks of it (`signkin.ratings`).
     """
 
     recording: str
@@ -55,6 +56,8 @@ class Entry:
     from_s: float = 0.0
     to_s: float | None = None
     clock_offset_s: float = 0.0
+    rating: str = ""
+    rating_note: str = ""
 
 
 @dataclass(frozen=True)
@@ -332,6 +335,8 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
             from_s=float(row.get("from_s") or 0),
             to_s=float(row["to_s"]) if row.get("to_s") else None,
             clock_offset_s=float(row.get("clock_offset_s") or 0),
+            rating=row.get("rating", ""),
+            rating_note=row.get("rating_note", ""),
         )
     if not count:
         raise SignkinError("no recording", file=path, expected="one row a recording", todo=GUIDE)

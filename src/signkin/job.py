@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from signkin.cost import noted
 from signkin.errors import SignkinError
 from signkin.results.written import forget, record
 from signkin.unavailable import lacking, reason_of, rows_of, write_placeholder, write_rows
@@ -123,6 +124,7 @@ def job(snakemake: Any, *, analysis: bool = False) -> Iterator[Work]:
         log_path.open("w", encoding="utf-8", buffering=1) as log,
         redirect_stdout(log),
         redirect_stderr(log),
+        noted(log_path, str(snakemake.rule), " ".join(map(str, snakemake.wildcards))),
     ):
         warnings.simplefilter("default")
         work = Work(snakemake, analysis, terminal)

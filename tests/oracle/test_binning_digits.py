@@ -6,31 +6,14 @@ with P = 0.7 is so in seven cases of ten.
 
 import numpy as np
 import pytest
-from scipy.stats import wishart
 
 from signkin import SignkinError
 from signkin.binning import Prior, fit, segment_log_evidence
 from signkin.binning.evidence import EXACT_ABOVE, MOST_NOISES
-from support.binning_model import Model, exact_log_evidence
+from support.binning_model import Model, drawn, exact_log_evidence
 
 PRIOR = Prior(noise_sd=0.5)
 SPANS = ((0, 39), (3, 10), (20, 36), (39, 39))
-
-
-def drawn(rng, lengths, order, dims, prior=PRIOR):
-    """Return a trajectory drawn from the prior, of segments of so many bins."""
-    parts = []
-    for n in lengths:
-        precision = np.atleast_2d(
-            wishart(prior.degrees(dims), np.diag(1 / prior.inverse_scale(dims))).rvs(
-                random_state=rng
-            )
-        )
-        root = np.linalg.cholesky(np.linalg.inv(precision))
-        weights = rng.normal(size=(order + 1, dims)) @ root.T / np.sqrt(prior.concentration)
-        time = np.arange(1, n + 1)[:, None] ** np.arange(order + 1.0)
-        parts.append(time @ weights + rng.normal(size=(n, dims)) @ root.T)
-    return np.concatenate(parts)
 
 
 def worst(x, order, prior=PRIOR, spans=SPANS):
@@ -45,7 +28,7 @@ def worst(x, order, prior=PRIOR, spans=SPANS):
 @pytest.mark.parametrize("order", range(10))
 def test_draws_from_the_prior_have_ten_digits(order):
     rng = np.random.default_rng(order)
-    x = drawn(rng, (23, 17), order, 3)
+    x = drawn(rng, (23, 17), order, 3, PRIOR)
     for fitted in {order, max(0, order - 2), min(9, order + 1)}:
         assert worst(x, fitted) < 1e-10
 
@@ -62,7 +45,7 @@ def test_straight_strokes_and_offsets_have_ten_digits(dims, size):
 
 
 def test_a_long_draw_of_a_high_order_has_ten_digits():
-    x = drawn(np.random.default_rng(1), (150,), 7, 3)
+    x = drawn(np.random.default_rng(1), (150,), 7, 3, PRIOR)
     assert np.abs(x).max() > 1e14
     assert worst(x, 7, spans=((0, 149), (40, 149))) < 1e-10
 
@@ -108,7 +91,7 @@ def draws():
         order, count = int(rng.integers(8)), int(rng.integers(bins))
         ends = np.sort(rng.choice(bins - 1, size=count, replace=False))
         lengths = np.diff([-1, *ends, bins - 1])
-        found = fit(drawn(rng, lengths, order, 2), prior=PRIOR, expectations=False)
+        found = fit(drawn(rng, lengths, order, 2, PRIOR), prior=PRIOR, expectations=False)
         share = found.order_probability
         boundary = share @ [found.boundary_probability(s) for s in found.orders]
         counts = share @ [found.count_probability(s) for s in found.orders]

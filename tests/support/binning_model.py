@@ -20,6 +20,7 @@ from itertools import combinations, pairwise
 import mpmath as mp
 import numpy as np
 from scipy.special import logsumexp, multigammaln
+from scipy.stats import wishart
 
 DIGITS = 60
 
@@ -94,6 +95,22 @@ def row_precision(n, order, b, step):
                 phi[k, i] = (mp.mpf(step) * (k + 1)) ** i
         k = mp.eye(n) + phi * phi.T / mp.mpf(b)
         return np.array(mp.inverse(k).tolist(), dtype=float), float(mp.log(mp.det(k)))
+
+
+def drawn(rng, lengths, order, dims, prior):
+    """Return a trajectory drawn from the prior, of segments of so many bins, (T, dims)."""
+    parts = []
+    for n in lengths:
+        precision = np.atleast_2d(
+            wishart(prior.degrees(dims), np.diag(1 / prior.inverse_scale(dims))).rvs(
+                random_state=rng
+            )
+        )
+        root = np.linalg.cholesky(np.linalg.inv(precision))
+        weights = rng.normal(size=(order + 1, dims)) @ root.T / np.sqrt(prior.concentration)
+        time = np.arange(1, n + 1)[:, None] ** np.arange(order + 1.0)
+        parts.append(time @ weights + rng.normal(size=(n, dims)) @ root.T)
+    return np.concatenate(parts)
 
 
 def segment(X, order, model):

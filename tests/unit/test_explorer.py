@@ -3,8 +3,10 @@
 import json
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from signkin.explorer.choice import chosen
@@ -118,8 +120,8 @@ def test_gaps_tell_what_was_filled_and_what_stays(tmp_path):
 def test_flags_tell_where_to_look_in_order_of_time():
     data = {
         "refined": {
-            "right": [[0, 0, 500, "far", 2], [0, 1, 900, "moved", 80], [1, 0, 1500, "moved", 1]],
-            "left": [[0, 0, 500, "far", 60], [0, 1, 880, "far", 70], [1, 0, 1500, "far", 99]],
+            "right": [[0, 0, 500, "f", 2], [0, 1, 900, "m", 80], [1, 0, 1500, "m", 1]],
+            "left": [[0, 0, 500, "f", 60], [0, 1, 880, "f", 70], [1, 0, 1500, "f", 99]],
         },
         "transitions": [
             {"number": 1, "manual": [900, 800], "status": "overlap", "outlier": False},
@@ -151,20 +153,22 @@ def test_a_page_holds_tags_refined_tags_transitions_and_syntheses(tmp_path):
     assert [tag[:2] for tag in data["lanes"][0]["tags"]] == [
         [500, 1000], [1400, 2000], [2500, 3000], [2900, 3600]
     ]  # fmt: skip
-    assert [t["status"] for t in data["transitions"]] == ["ok", "ok", "overlap"]
-    assert data["transitions"][0]["right"] == [1020, 1400]
+    fields = data["transitions"]["fields"]
+    rows = [dict(zip(fields, row, strict=True)) for row in data["transitions"]["rows"]]
+    assert [row["status"] for row in rows] == ["ok", "ok", "overlap"]
+    assert rows[0]["right"] == [1020, 1400]
     assert any("no speed minimum of either hand near" in f["why"] for f in data["flags"])
     made = data["syntheses"]["methods"]
     assert set(made) == {"interpolation", "blending"}
-    first, rows, length = made["interpolation"]["frames"][0]
+    first, frames, length = made["interpolation"]["frames"][0]
     assert (first, length) == (1, 0.3)
     path = unpacked(made["interpolation"]["positions"])
     joints = data["skeleton"]["joints"]
     wrist = 3 * joints.index("right_wrist")
     before = signer().positions[50, 5]  # the last posture of the first sign
     assert path[0, wrist : wrist + 3] == pytest.approx(before, abs=0.002)
-    assert len(path) == sum(frames for _, frames, _ in made["interpolation"]["frames"])
-    assert rows > 3
+    assert len(path) == sum(n for _, n, _ in made["interpolation"]["frames"])
+    assert frames > 3
 
 
 def test_a_gloss_cannot_leave_its_place(tmp_path):
@@ -184,7 +188,7 @@ def test_what_is_missing_is_told(tmp_path):
 
 def test_one_sign_alone_has_no_transition_and_its_page_says_so(tmp_path):
     _, data = pages_of(tmp_path, [signer()], SIGNS[:1])
-    assert data["transitions"] == []
+    assert data["transitions"]["rows"] == []
     assert any(text.startswith("No transition") for text in data["missing"])
 
 
@@ -223,3 +227,22 @@ def test_half_of_the_pages_go_to_those_with_most_to_look_at():
     assert {"r000", "r099"} <= set(found)
     assert chosen(names, {}, None) == names == chosen(names, {}, 100)
     assert chosen(names, {"r004": 1}, 1) in (["r000"], ["r004"])
+
+
+def test_an_analysis_that_is_not_there_leaves_the_rest_of_the_page(tmp_path):
+    """Its tables have no rows and its Parquet files no columns (signkin.unavailable)."""
+    sources = made_up(tmp_path / "made", [signer(seconds=2.0)], SIGNS[:2])
+    tables = {
+        name: frame.iloc[:0] for name, frame in sources.tables.items() if name != "recordings"
+    }
+    pd.DataFrame().to_parquet(tmp_path / "empty.parquet")
+    bare = replace(
+        sources,
+        tables={**tables, "recordings": sources.tables["recordings"]},
+        frames=[tmp_path / "empty.parquet"],
+        posteriors=[tmp_path / "empty.parquet"],
+    )
+    write_pages(bare, tmp_path / "pages", tmp_path / "pages.html")
+    _, data = content_of(tmp_path)
+    assert data["skeleton"]["positions"]["rows"] == 100
+    assert data["speeds"] is None and data["densities"] == [] and data["lanes"] == []

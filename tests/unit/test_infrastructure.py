@@ -159,7 +159,11 @@ def run_job(tmp_path, body):
     terminal.write = lambda t: setattr(terminal, "text", terminal.text + t)
     sys.stderr, kept = terminal, sys.stderr
     try:
-        with job(SimpleNamespace(log=[str(tmp_path / "logs/x.log")])):
+        with job(
+            SimpleNamespace(
+                log=[str(tmp_path / "logs/x.log")], rule="x", wildcards=["c"], output=[]
+            )
+        ):
             print("progress")
             body()
     finally:

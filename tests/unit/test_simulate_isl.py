@@ -10,7 +10,7 @@ from signkin import SignkinError, read_recording, tables
 from signkin.corpus import load_corpus
 from signkin.io.wide_csv import digits_for, write_wide_csv
 from signkin.simulate import isl
-from signkin.simulate.strokes import Stroke, share_done, superposed
+from signkin.simulate.strokes import SHARES, Stroke, share_done, superposed
 
 
 @pytest.fixture(scope="module")
@@ -167,3 +167,47 @@ def test_a_sign_or_signer_that_it_does_not_know_is_named(corpus):
     entry = replace(corpus.entries[0], signer="me")
     with pytest.raises(SignkinError, match=r"the signer 'me' .*expected sim-1, sim-2"):
         isl.simulate([entry], "isl-sim", 0.001, 1)
+
+
+@pytest.mark.parametrize(("order", "peak"), [(3, 1.5), (5, 1.875), (7, 2.1875)])
+def test_strokes_rest_at_both_ends_in_what_they_make_least(order, peak):
+    """Peak over mean speed; derivatives below acceleration, jerk or snap are 0 at both ends."""
+    share = np.polynomial.Polynomial(SHARES[order])
+    assert share.degree() == order and share(0) == 0 and share(1) == pytest.approx(1)
+    for derivative in range(1, (order + 1) // 2):
+        assert share.deriv(derivative)(np.array([0.0, 1.0])) == pytest.approx(0, abs=1e-9)
+    assert share.deriv((order + 1) // 2)(0) != 0
+    assert share.deriv()(0.5) == pytest.approx(peak)
+    tau = np.linspace(0, 1, 11)
+    assert share_done(tau, order) == pytest.approx(share(tau), abs=1e-12)
+    with pytest.raises(SignkinError, match="no stroke is of order 4"):
+        share_done(tau, 4)
+
+
+@pytest.mark.parametrize("recipe", [isl.Recipe(3), isl.Recipe(7, 3)])
+def test_a_recipe_keeps_the_design(corpus, takes, recipe):
+    made = isl.simulate(corpus.entries[:2], corpus.name, corpus.noise_sd, 2017, recipe)
+    for take, known in zip(made, takes, strict=False):
+        assert len(take.strokes) == recipe.parts * len(known.strokes)
+        assert {s.order for s in take.strokes} == {recipe.order}
+        for i, whole in enumerate(known.strokes):
+            parts = take.strokes[i * recipe.parts : (i + 1) * recipe.parts]
+            assert sum(p.displacement_m for p in parts) == pytest.approx(whole.displacement_m)
+            assert parts[0].onset_s == whole.onset_s
+            assert parts[-1].offset_s == pytest.approx(whole.offset_s)
+        ends = isl.stroke_ends(take, 0.5, 1.5)
+        assert (np.diff(ends) > 0).all() and ends.min() > 0 and ends.max() < 1
+    # Between the ends of strokes the path is a polynomial of that order, beside the slow sway.
+    take = isl.simulate(corpus.entries[:1], corpus.name, corpus.noise_sd, 2017, recipe)[0]
+    ends = isl.stroke_ends(take)
+    i = int(np.argmax(np.diff(ends)))
+    t = np.arange(len(take.path)) / isl.RATE_HZ
+    inside = (t > ends[i]) & (t < ends[i + 1])
+    for order, most in ((recipe.order, 1e-4), (1, np.inf)):
+        fitted = np.polynomial.Polynomial.fit(t[inside], take.path[inside, 0], order)
+        assert np.abs(fitted(t[inside]) - take.path[inside, 0]).max() < most
+
+
+def test_no_parts_are_refused():
+    with pytest.raises(SignkinError, match="0 parts"):
+        isl.Recipe(parts=0)

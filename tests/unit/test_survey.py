@@ -179,6 +179,11 @@ def test_real_corpora_are_not_called_wrong_and_spoilt_ones_are(real_corpora, nam
             if x.startswith("wrong") and "right of left" in x]  # fmt: skip
     if motion.get("unit") == "px":
         assert "wrong: space of the hands" in told(changed(corpus, unit="m"))
+    if "rate_hz" not in motion and corpus.tagged:  # the file tells it; overruled, the tags tell
+        half = {"use": 25, "instead_of_file": True}
+        assert "look: tags, part of the motion from the first to the last" in told(
+            changed(corpus, rate_hz=half)
+        )
     if "rate_hz" in motion:
         wrong_rate = told(changed(corpus, rate_hz=motion["rate_hz"] / 2))
         assert wrong_rate & {
@@ -264,3 +269,11 @@ def test_a_folder_without_motion_is_told(tmp_path, capsys):
     (tmp_path / "x.bvh").write_text("nothing")
     assert main(["corpus", "init", str(tmp_path), "--into", str(tmp_path / "c")]) == 1
     assert "no motion that can be read" in capsys.readouterr().err
+
+
+def test_tags_that_end_at_half_of_the_motion_tell_the_rate():
+    recording, stops = signing()
+    slow = replace(recording, rate_hz=RATE / 2)
+    found = bad(tag_notices(slow, tags_of(stops)))
+    notice = found["tags, part of the motion from the first to the last"]
+    assert "at 100 Hz, not 50, both would last as long" in notice.todo

@@ -94,21 +94,24 @@ def made(home, line):
     return run_in_process(home / "work", home / words["DATA"].removeprefix("~/"))
 
 
-def test_the_page_does_what_it_says(root, home, capsys):
+@pytest.fixture
+def walked(root, home, capsys):
+    """The page read from top to end; returns how much each `init` asked, and the `make` lines."""
     text = (root / "docs/adding-a-corpus.md").read_text(encoding="utf-8")
     page = text[text.index("## Walk-through") : text.index("## What `init` and `check` do")]
-    out, done, asked = "", [], []
+    out, asked, made_by = "", [], []
     for kind, name, body in FENCE.findall(page):
         if kind == "sh":
             for line in body.splitlines():
                 if line.startswith("make "):
-                    done = made(home, line)
+                    made_by.append(line)
                     continue
                 words = shlex.split(line.replace("~", str(home)))
                 assert words[0] == "signkin"
                 assert main(words[1:]) == 0, capsys.readouterr()
                 out = capsys.readouterr().out
-                asked += [len(re.findall(r"^ +\d+\. ", out, re.MULTILINE))] * (words[2] == "init")
+                if words[2] == "init":
+                    asked.append(len(re.findall(r"^ +\d+\. ", out, re.MULTILINE)))
         elif kind == "expect":
             for line in body.splitlines():
                 assert line in out
@@ -117,8 +120,18 @@ def test_the_page_does_what_it_says(root, home, capsys):
         else:
             assert kind == "csv"
             (home / "work" / name).write_text(body, encoding="utf-8")
+    return asked, made_by
+
+
+def test_init_asks_at_most_five_questions_and_check_finds_nothing_wrong(walked):
+    asked, made_by = walked
     assert len(asked) == len(FOLDERS)
     assert max(asked) <= MOST_ANSWERS
+    assert len(made_by) == 1
+
+
+def test_make_comes_to_the_report_of_all_three(walked, home):
+    done = made(home, walked[1][0])
     assert done[-1].rule == "report"
     assert not done[-1].failed, done[-1]
     for name in FOLDERS:

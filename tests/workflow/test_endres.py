@@ -28,7 +28,8 @@ def study_config():
     )  # fmt: skip
     config["open_choices"]["endres2013"] = {
         "recordings": 2, "orders": [0, 3], "dof": [None], "bins": [40], "time_unit": ["bin"],
-        "noise": ["sensor expected"], "concentration": [0.1],
+        "noise": ["sensor expected"], "concentration": [0.1], "literal_dof": [],
+        "learnt_recordings": 4,
     }  # fmt: skip
     return config
 

@@ -108,12 +108,19 @@ rule endres_figures:
 
 
 rule order_choices:
-    """What the paper does not print, varied: prior and bins (3.2)."""
+    """What the paper does not print: varied, under two priors, and learnt from the data (3.2)."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
         ground_truth=rules.endres_tables.output.ground_truth,
+        binning=rules.endres_tables.output.binning,
+        trajectories=of_shards(rules.single_signs.output.trajectories),
     output:
         order_choices="<results>/endres2013/{corpus}/order_choices.csv",
+        learnt_prior="<results>/endres2013/{corpus}/learnt_prior.csv",
+        two_priors="<results>/endres2013/{corpus}/two_priors.csv",
+        beside_svg="<results>/endres2013/{corpus}/fig_two_priors.svg",
+        beside_pdf="<results>/endres2013/{corpus}/fig_two_priors.pdf",
+        beside_caption="<results>/endres2013/{corpus}/two_priors.txt",
         svg="<results>/endres2013/{corpus}/fig_order_choices.svg",
         pdf="<results>/endres2013/{corpus}/fig_order_choices.pdf",
         caption="<results>/endres2013/{corpus}/order_choices.txt",

@@ -50,5 +50,6 @@ if "isl-sim" in PLAN.simulated:
             code=PLAN.digest("stages/simulate_isl.py"),
             corpus=lambda w: str(PLAN.corpora[ISL_SIM].folder),
             seed=SETTINGS.seed,
+            recipe=SETTINGS.simulation.isl,
         script:
             "../scripts/stages/simulate_isl.py"

@@ -97,6 +97,7 @@ class Curve:
     keeps: str = ""  # the specifications that keep all that is printed
     checks: tuple[int, ...] | None = None  # of the claim, that it speaks of; None: all
     each: str = ""  # a choice that is none: the claim is about each of its levels
+    fails: str = ""  # where it fails; what neither holds nor fails is undecided
 
 
 @dataclass(frozen=True)
@@ -204,6 +205,7 @@ def read_paper(folder: str | Path) -> Paper:
             label=c["label"], reads=c["reads"], where=c.get("where", ""),
             reference=c.get("reference", ""), holds=c.get("holds", ""),
             line=lines[("specification_curves", i)], keeps=c.get("keeps", ""),
+            fails=c.get("fails", ""),
             checks=tuple(c["checks"]) if "checks" in c else None, each=c.get("each", ""),
         )
         for i, c in enumerate(content.get("specification_curves", []))

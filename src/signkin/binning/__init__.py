@@ -1,5 +1,6 @@
 """Bayesian binning of trajectories with polynomial segments (Endres et al. 2013)."""
 
+from signkin.binning.checks import noise_coverage, residual_autocorrelation, residuals
 from signkin.binning.fitting import fit, fit_many, segment_log_evidence
 from signkin.binning.hit_rate import (
     ChanceLine,
@@ -15,6 +16,7 @@ from signkin.binning.hit_rate import (
     hpfpps,
     match,
 )
+from signkin.binning.learning import LearntPrior, held_out, learn_prior, log_evidences
 from signkin.binning.posterior import Posterior
 from signkin.binning.prior import Prior
 
@@ -23,6 +25,7 @@ __all__ = [
     "GroupRates",
     "HitRate",
     "Hpfpps",
+    "LearntPrior",
     "OrderTests",
     "Posterior",
     "Prior",
@@ -32,8 +35,14 @@ __all__ = [
     "fit",
     "fit_many",
     "group_rates",
+    "held_out",
     "hit_rate",
     "hpfpps",
+    "learn_prior",
+    "log_evidences",
     "match",
+    "noise_coverage",
+    "residual_autocorrelation",
+    "residuals",
     "segment_log_evidence",
 ]

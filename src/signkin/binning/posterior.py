@@ -26,6 +26,7 @@ from signkin.errors import SignkinError, listed
 Floats = NDArray[np.float64]
 
 CLEARANCE_BINS = 3
+MOST_MISFIT = 3.0  # SDs of the prior's noise: more is no noise of the prior's
 DIGITS_2 = 30  # binary digits, nine decimal ones, to which probabilities are compared
 
 
@@ -132,13 +133,28 @@ class Posterior:
     def noise_misfit(self, order: int) -> float:
         """Return how far the data lie off the expected trajectory, in SDs of the prior's noise.
 
-        The root of the mean square over bins and dimensions. About 1 where the noise fits; far
-        above, the polynomials do not follow the data or noise_sd is too small (a unit?); far
-        below, it is too large, and boundaries are lost.
+        Those of `Prior.expected_noise`; the root of the mean square over bins and dimensions.
+        About 1 where the noise fits; far above, the polynomials do not follow the data or
+        noise_sd is too small (a unit?); far below, it is too large, and boundaries are lost.
         """
-        deviations = np.asarray(self.prior.noise_sd, dtype=float)
+        deviations = self.prior.expected_noise(self.x.shape[1])
         off = (self.x - self.expected_trajectory(order)) / deviations
         return float(np.sqrt(np.mean(off**2)))
+
+    def doubts(self, order: int) -> str:
+        """Return why the result of an order is to be doubted, in words; empty where it is not.
+
+        M is the least that the longest segment allows, or the data lie more than
+        `MOST_MISFIT` of the prior's SDs off the expected trajectory.
+        """
+        told = []
+        if self.at_floor(order):
+            told.append(f"{self.least_count} boundaries are the least that the longest segment "
+                        "allows: it made them, not the data")  # fmt: skip
+        misfit = self.noise_misfit(order)
+        if misfit > MOST_MISFIT:
+            told.append(f"the data lie {misfit:.1f} SDs of the prior's noise off the path")
+        return "; ".join(told)
 
     def map_segmentation(self, order: int, count: int | None = None) -> NDArray[np.int64]:
         """Return the inner boundaries of the most probable segmentation with `count` of them.

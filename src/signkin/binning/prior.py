@@ -10,7 +10,7 @@ triangular form: they are made once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, localcontext
 from functools import lru_cache
 
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from signkin.errors import SignkinError, listed
 
 TIME_UNITS = ("bin", "second", "trajectory")
-SCALES = ("expected", "plain")
+SCALES = ("expected", "plain", "literal")
 HIGHEST_ORDER = 9
 
 
@@ -34,7 +34,12 @@ class Prior:
     time_unit: what a step of the polynomials' time is: `bin` (1), `second` (the bin's duration)
     or `trajectory` (one over the number of bins). The paper does not say.
     scale: `expected`, V^-1 = dof noise_sd^2 I, so that noise_sd is the noise a segment is
-    expected to have; or `plain`, V^-1 = noise_sd^2 I, the other reading of "prior covariance".
+    expected to have; `plain`, V^-1 = noise_sd^2 I, another reading of "prior covariance"; or
+    `literal`, V = noise_sd^2 I: 2.5.5 calls V the scale matrix of a density of *precisions*, and
+    3.2 gives it the data's variances. Variances in the place of precisions are numbers without a
+    meaning until a unit of length is told: in mm they say 1/mm^2.
+    length_unit: that unit, in the data's unit (0.001 for mm where the data are in m). Mandatory
+    with `literal`, and refused with the others, which do not depend on it.
     """
 
     noise_sd: float | tuple[float, ...]
@@ -42,6 +47,7 @@ class Prior:
     concentration: float = 0.1
     time_unit: str = "bin"
     scale: str = "expected"
+    length_unit: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that make no density."""
@@ -59,6 +65,35 @@ class Prior:
             raise _error("time_unit", self.time_unit, listed(TIME_UNITS))
         if self.scale not in SCALES:
             raise _error("scale", self.scale, listed(SCALES))
+        self._check_length_unit()
+
+    def _check_length_unit(self) -> None:
+        given = self.length_unit
+        if self.scale != "literal":
+            if given is not None:
+                raise _error("length_unit", given, f"None with scale {self.scale}: it needs none")
+            return
+        wanted = "the unit of length of V in the data's unit (0.001: mm of data in m), for literal"
+        if given is None:
+            raise _error("length_unit", given, wanted)
+        unit = _numbers("length_unit", given, wanted)
+        if not (len(unit) == 1 and np.isfinite(unit[0]) and unit[0] > 0):
+            raise _error("length_unit", given, wanted)
+
+    def with_noise(self, share: float) -> Prior:
+        """Return the prior that expects `share` times the noise of this one."""
+        # Read literally, the greater the variances the less noise is expected.
+        factor = 1 / share if self.scale == "literal" else share
+        deviations = np.asarray(self.noise_sd) * factor
+        noise = float(deviations) if deviations.ndim == 0 else tuple(map(float, deviations))
+        return replace(self, noise_sd=noise)
+
+    def expected_noise(self, dimensions: int) -> NDArray[np.float64]:
+        """Return the noise that a segment is expected to have: an SD a dimension, (L,).
+
+        From the expected precision, dof V: noise_sd itself with scale `expected`.
+        """
+        return np.asarray(np.sqrt(self.inverse_scale(dimensions) / self.degrees(dimensions)))
 
     def degrees(self, dimensions: int) -> float:
         """Return the degrees of freedom for data of so many dimensions."""
@@ -72,6 +107,8 @@ class Prior:
         deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
         if len(deviations) not in (1, dimensions):
             raise _error("noise_sd", self.noise_sd, f"one value, or {dimensions}")
+        if self.length_unit is not None:  # V = sd^2 in that unit, so V^-1 = unit^4 / sd^2
+            return np.asarray(np.broadcast_to((self.length_unit**2 / deviations) ** 2, dimensions))
         factor = self.degrees(dimensions) if self.scale == "expected" else 1.0
         return np.asarray(np.broadcast_to(factor * deviations**2, (dimensions,)), dtype=float)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,12 @@ from signkin.explorer.syntheses import syntheses
 from signkin.joints import HANDS
 from signkin.recording import Recording
 from signkin.studies.endres2013.single_signs import movement_of
+from signkin.studies.naert2017.synthesis.database import database
 
 MOST_BYTES = 4_900_000  # of a page
 FRAME_BYTES = 160_000  # the page without its content
 SKELETON_BYTES = 3_200_000
-SYNTHESES_BYTES = 700_000
+SYNTHESES_BYTES = 1_300_000
 LEAST_SKELETON_BYTES = 200_000
 
 
@@ -63,12 +64,15 @@ def content(
         "densities": _densities(sources, recording, posteriors),
     }
     data["flags"] = events.flags(data)
+    data["transitions"] = _rows(data["transitions"])
     data["labels"] = list(labels.texts)
     data["troubles"] = _troubles(sources, name)
     room = MOST_BYTES - FRAME_BYTES - len(as_json(data))
-    room_for_body = min(SKELETON_BYTES, max(room - SYNTHESES_BYTES, LEAST_SKELETON_BYTES))
-    data["skeleton"] = skeleton(recording, room_for_body)
+    kept = SYNTHESES_BYTES if len(sources.of("synthesis", name)) else 0
+    data["skeleton"] = _skeleton(recording, room - kept)
     data["syntheses"] = _syntheses(sources, recording, data["skeleton"])
+    if kept and not data["syntheses"]["methods"]:  # what was kept for them is the skeleton's
+        data["skeleton"] = _skeleton(recording, room)
     data["missing"] = _missing(sources, recording, data)
     return data
 
@@ -77,6 +81,10 @@ def as_json(data: Mapping[str, Any]) -> str:
     """Return the content as JSON that may stand in a page: no letter of it closes a tag."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _skeleton(recording: Recording, room: int) -> Mapping[str, Any]:
+    return skeleton(recording, min(SKELETON_BYTES, max(room, LEAST_SKELETON_BYTES)))
 
 
 def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> list[dict[str, Any]]:
@@ -99,10 +107,14 @@ def _syntheses(
     if not len(table):
         return None
     try:
-        return syntheses(
+        base = database(
             sources.corpus,
-            recording,
-            sources.tables["intervals"],
+            [recording],
+            sources.of("intervals", recording.name),
+            sources.settings.synthesis,
+        )
+        return syntheses(
+            base,
             table,
             sources.settings.synthesis,
             body["joints"],
@@ -111,6 +123,12 @@ def _syntheses(
         )
     except SignkinError as error:
         return {"methods": {}, "told": str(error)}
+
+
+def _rows(dictionaries: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+    """Return dictionaries of the same keys with each key once: there may be thousands of them."""
+    fields = list(dictionaries[0]) if dictionaries else []
+    return {"fields": fields, "rows": [list(row.values()) for row in dictionaries]}
 
 
 def _troubles(sources: Sources, name: str) -> list[str]:
@@ -143,7 +161,7 @@ def _missing(sources: Sources, recording: Recording, data: Mapping[str, Any]) ->
             out.append(f"Speed is drawn at {data['speeds']['rate']:.3g} Hz, for the length of it.")
     if not data["lanes"]:
         out.append("No tags: minima and binning are all that divides this recording.")
-    elif not data["transitions"]:
+    elif not data["transitions"]["rows"]:
         out.append("No transition: no two signs of this recording belong to one utterance.")
     elif not (data["syntheses"] or {}).get("methods"):
         out.append("No transition of this recording was synthesised.")

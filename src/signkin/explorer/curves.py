@@ -67,16 +67,18 @@ def series_boundaries(boundaries: pd.DataFrame, posteriors: pd.DataFrame) -> lis
     """Return the boundaries that binning finds in both wrists of a continuous recording.
 
     boundaries, posteriors: its rows of the tables `wrist_boundaries` and `wrist_posteriors`.
+    times: in ms, each as its distance from the one before; values: posteriors in %.
     """
     out: list[dict[str, Any]] = []
     for row in posteriors.itertuples():
         mine = boundaries[boundaries["hand"] == row.hand].sort_values("boundary_s")
+        whole = np.rint(1000 * mine["boundary_s"].to_numpy(dtype=float))
         out.append(
             {
                 "hand": str(row.hand),
                 "order": int(row.order),
-                "times": [round(float(t), 4) for t in mine["boundary_s"]],
-                "values": [round(float(p), 3) for p in mine["probability"]],
+                "times": np.diff(whole, prepend=0).astype(int).tolist(),
+                "values": np.rint(100 * mine["probability"]).astype(int).tolist(),
             }
         )
     return out

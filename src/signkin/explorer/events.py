@@ -52,8 +52,8 @@ def refined(boundaries: pd.DataFrame, posteriors: pd.DataFrame) -> Mapping[str, 
     """Return the refined tags of each hand: hand -> [sign, edge, ms, status, off in %].
 
     boundaries, posteriors: the recording's rows of the tables `boundaries`, `boundary_posteriors`.
-    sign counts from 0; edge: 0 start, 1 end; off: probability that the boundary is more than 0.1 s
-    from the tag.
+    sign counts from 0; edge: 0 start, 1 end; status: its first letter, `m` moved, `f` far, `t`
+    taken; off: probability that the boundary is more than 0.1 s from the tag.
     """
     key = ["sign", "edge", "hand"]
     rows = boundaries.assign(off=np.nan)
@@ -65,7 +65,7 @@ def refined(boundaries: pd.DataFrame, posteriors: pd.DataFrame) -> Mapping[str, 
         columns = zip(mine["sign"], mine["edge"], mine["refined_s"], mine["status"], mine["off"],
                       strict=True)  # fmt: skip
         out[hand] = [
-            [int(sign) - 1, int(edge == "end"), ms(at), str(status), _percent(off)]
+            [int(sign) - 1, int(edge == "end"), ms(at), str(status)[:1], _percent(off)]
             for sign, edge, at, status, off in columns
         ]
     return out
@@ -172,13 +172,13 @@ def _tag_flags(by_hand: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     for rows in by_hand.values():
         for sign, edge, at, status, off in rows:
             states.setdefault((sign, edge), []).append((status, off))
-            if status != "moved" or (sign, edge) not in times:
+            if status != "m" or (sign, edge) not in times:
                 times[sign, edge] = at
     out: list[dict[str, Any]] = []
     for (sign, edge), found in states.items():
         which = f"{'end' if edge else 'start'} of sign {sign + 1}"
         offs = [off for _, off in found if off is not None]
-        if all(status == "far" for status, _ in found):
+        if all(status == "f" for status, _ in found):
             out.append(
                 {"at": times[sign, edge], "why": f"{which}: no speed minimum of either hand near"}
             )

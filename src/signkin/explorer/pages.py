@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+import pyarrow.parquet as pq
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -48,14 +49,9 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     troubles = sources.troubles()
     names = chosen(sources.names(), troubles, sources.settings.most_recordings)
-    template = _environment().get_template("explorer.html.j2")
     beside = dict(zip(names, zip([None, *names], [*names[1:], None], strict=False), strict=True))
     for name, data in _contents(sources, names):
-        before, after = beside[name]
-        html = template.render(
-            data=data, json=Markup(as_json(data)), before=before, after=after,
-            listing=listing.name, version=signkin.__version__, **_parts(),
-        )  # fmt: skip
+        html = render(data, *beside[name], listing.name)
         (folder / f"{name}.html").write_text(html, encoding="utf-8")
     rows = [
         Listed(
@@ -80,25 +76,47 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
     listing.write_text(html, encoding="utf-8")
 
 
+def render(data: Mapping[str, Any], before: str | None, after: str | None, listing: str) -> str:
+    """Return a page as HTML. before, after: recordings beside it that have one. listing: a file."""
+    return (
+        _environment()
+        .get_template("explorer.html.j2")
+        .render(
+            data=data,
+            json=Markup(as_json(data)),
+            before=before,
+            after=after,
+            listing=listing,
+            version=signkin.__version__,
+            **_parts(),
+        )
+    )
+
+
 def _contents(sources: Sources, names: Sequence[str]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the content of each page, one shard after the other."""
-    wanted = [("recording", "in", list(names))]
     binned: Sequence[Path | None] = sources.posteriors or [None] * len(sources.recordings)
     for recordings, frames, posteriors in zip(
         sources.recordings, sources.frames, binned, strict=True
     ):
-        kinematics = _by_recording(pd.read_parquet(frames, filters=wanted))
+        kinematics = _by_recording(frames, names)
         densities = {}
         if posteriors is not None:
-            own = [*wanted, ("dataset", "==", RECORDED)]
-            densities = _by_recording(pd.read_parquet(posteriors, filters=own, columns=DENSITY))
+            densities = _by_recording(posteriors, names, DENSITY, [("dataset", "==", RECORDED)])
         for recording in read_recordings(recordings, names):
             name, none = recording.name, pd.DataFrame()
             mine = kinematics.get(name, none), densities.get(name, none)
             yield name, content(sources, recording, *mine)
 
 
-def _by_recording(frame: pd.DataFrame) -> dict[str, pd.DataFrame]:
+def _by_recording(
+    path: Path, names: Sequence[str], columns: list[str] | None = None, more: Sequence[Any] = ()
+) -> dict[str, pd.DataFrame]:
+    """Return the rows of some recordings; none of a file that an analysis left without content."""
+    if "recording" not in pq.read_schema(path).names:
+        return {}
+    filters = [("recording", "in", list(names)), *more]
+    frame = pd.read_parquet(path, filters=filters, columns=columns)
     return {str(name): rows for name, rows in frame.groupby("recording", sort=False)}
 
 

@@ -85,7 +85,7 @@ class Sources:
         implausible = self.tables["plausibility"]
         yield implausible[implausible["verdict"] == "implausible"]
         yield self.tables["excluded"]
-        if "transitions" in self.tables:
+        if len(self.tables.get("transitions", ())) and len(self.tables.get("boundaries", ())):
             rows = self.tables["transitions"]
             whole = (rows["segmentation"] == "manual") & (rows["hand"] == "both")
             yield rows[whole & (rows["status"] != "ok")]

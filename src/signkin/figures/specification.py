@@ -44,6 +44,26 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
     return ax
 
 
+def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> Axes:
+    """Draw a row a claim and a column a reading: filled where it holds, open where it fails.
+
+    readings: a column a claim, `yes`, `no` or empty where there is nothing to judge it by.
+    """
+    at = np.arange(len(readings))
+    for y, claim in enumerate(claims):
+        for value, colour in (("yes", RIGHT), ("no", PALE)):
+            here = at[(readings[claim] == value).to_numpy()]
+            if len(here):
+                ax.add_patch(_bars(here, y, colour))
+    for value, colour in (("holds", RIGHT), ("fails", PALE)):
+        ax.plot([], [], marker="s", ls="none", color=colour, label=value)
+    ax.set_yticks(np.arange(len(claims)), claims)
+    ax.set(ylim=(len(claims) - 0.5, -0.5), xlim=(-1, len(readings)))
+    ax.tick_params(axis="y", length=0)
+    ax.tick_params(axis="x", labelbottom=False, length=0)
+    return ax
+
+
 def _bars(at: NDArray[np.intp], y: int, colour: str) -> PathPatch:
     """Return bars at places, as one shape; each keeps to its place, neighbours are one bar."""
     breaks = np.flatnonzero(np.diff(at) > 1)

@@ -6,7 +6,9 @@ import numpy as np
 import scipy  # loads scipy.signal when it is used: it takes as long to import as numba
 from numpy.typing import NDArray
 
+from signkin.errors import SignkinError
 from signkin.kinematics.gaps import stretches
+from signkin.kinematics.given import numbers, rate
 
 
 def speed_minima(
@@ -26,6 +28,12 @@ def minima_with_depth(
     speed: NDArray[np.float64], rate_hz: float, prominence: float = 0.0, spacing_s: float = 0.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return times (s), speeds and prominences of the local minima, in order of time."""
+    speed = numbers(speed, "speed", "(frames,)", axes=1, least=0)
+    rate_hz = rate(rate_hz)
+    if speed.ndim != 1:
+        raise SignkinError(
+            f"an array of shape {speed.shape}", place="speed", expected="shape (frames,)"
+        )
     frames, depths = [], []
     distance = max(1, int(np.ceil(spacing_s * rate_hz - 1e-9)))
     for first, end in stretches(~np.isnan(speed)):

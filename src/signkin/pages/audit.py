@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -10,6 +10,7 @@ import pandas as pd
 import signkin
 from signkin.audit.ledger import PRINT, SIMULATED
 from signkin.audit.paper import Claim, Curve, Paper
+from signkin.pages import readings
 from signkin.report.page import FigureView, Page, Section, TableView
 from signkin.studies.one_wrist.report import two_papers
 from signkin.tables import read_table
@@ -39,7 +40,7 @@ def audit_page(
         sections.append(both)
     curves = list(_curves(papers, folder / "curves"))
     if curves:
-        sections.append(_rest_on(curves))
+        sections.append(_rest_on(curves, readings.views(papers, folder / "curves")))
     return Page(
         title="Audit: can the printed numbers be right, and do they hold on other data?",
         lead=(
@@ -290,8 +291,8 @@ def _curves(papers: Sequence[Paper], folder: Path) -> Iterator[tuple[Paper, Curv
                 yield paper, curve, base
 
 
-def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]]) -> Section:
-    views: list[TableView | FigureView] = []
+def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]], kept: Iterable[FigureView]) -> Section:
+    views: list[TableView | FigureView] = [*kept]
     for paper, curve, base in curves:
         levels_file = base.with_name(f"{base.name}_levels.csv")
         levels = read_table(levels_file, "specifications")

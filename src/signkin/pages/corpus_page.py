@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +16,7 @@ from signkin import tables
 from signkin.pages.corpora import design, origin
 from signkin.pages.corpus_durations import counted, durations_of
 from signkin.pages.corpus_list import overview_of, todo_of
-from signkin.pages.corpus_tags import tags_of, worst_tags
+from signkin.pages.corpus_tags import against_chance, tags_of, worst_tags
 from signkin.pages.corpus_views import (
     duration_views,
     recordings_views,
@@ -25,7 +26,9 @@ from signkin.pages.corpus_views import (
 )
 from signkin.pages.sources import Sources
 from signkin.pages.unavailable import unavailable_lines
+from signkin.pages.warnings import counted as counted_words
 from signkin.pages.warnings import groups
+from signkin.ratings import Rating, tag_ratings
 from signkin.report.attempts import CANNOT
 from signkin.report.page import Page, Section
 from signkin.studies.naert2017.report import left_out_views, refinement_views, sign_types_view
@@ -87,17 +90,41 @@ class Owner:
         return overview_of(self.about, gaps, plausibility, self.durations, self.tags)
 
     @cached_property
+    def ratings(self) -> dict[str, list[Rating]]:
+        """Recording -> ratings of it and of its tags, as this run read them."""
+        corpus = self.sources.corpora[self.name]
+        out = {name: list(own) for name, own in tag_ratings(corpus.folder).items()}
+        for entry in corpus.entries:
+            if entry.rating or entry.rating_note:
+                rating = Rating(entry.recording, entry.rating, entry.rating_note)
+                out.setdefault(entry.recording, []).append(rating)
+        return out
+
+    def rating(self, row: Any) -> Rating | None:
+        """Return the rating of a row of a table: of its tag, or of its recording."""
+        tag = getattr(row, "what", "recording") == "tag"
+        for one in self.ratings.get(row.recording, ()):
+            if one.of_tag == tag and (not tag or one.matches(row.start_s, row.gloss)):
+                return one
+        return None
+
+    @cached_property
     def todo(self) -> pd.DataFrame:
-        """What to look at."""
+        """What to look at; what is rated ok goes last."""
         worst = outliers = None
         if self.boundaries is not None:
             worst = worst_tags(self.boundaries, self.sources.table(self.name, "intervals"))
             outliers = read_table(self.sources.tagged_file(self.name, "fig07"), "distances")
-        return todo_of(
+        found = todo_of(
             self.overview, self.sources.table(self.name, "excluded"),
             self.sources.table(self.name, "plausibility"), worst, self.transitions, outliers,
             self.window_s,
         )  # fmt: skip
+        ok = [
+            (r := self.rating(row)) is not None and r.rating == "ok" for row in found.itertuples()
+        ]
+        found.loc[ok, "rank"] = 4
+        return found.sort_values("rank", kind="stable", ignore_index=True)
 
     def write(self, folder: Path) -> dict[str, Path]:
         """Write the tables of the page into a folder; returns what -> file."""
@@ -150,7 +177,8 @@ def _attempted(anchor: str, title: str, make: Callable[..., Section], *given: An
     """Return a section, or one that points to what is not available where it cannot be made."""
     try:
         return make(*given)
-    except CANNOT:
+    except CANNOT as error:
+        traceback.print_exception(error)  # in the log of the job
         return Section(anchor, title, text=("Not available; see below what lacks, and why.",))
 
 
@@ -159,8 +187,8 @@ def _short(owner: Owner) -> Section:
     about = owner.about
     minutes = float(about["duration_s"].sum()) / 60
     text = [
-        f"{len(about)} recordings of {about['signer'].nunique()} signers, {minutes:.1f} minutes "
-        f"at {_range(about['rate_hz'])} Hz."
+        f"{_counted(len(about), 'recording')} of {_counted(about['signer'].nunique(), 'signer')}, "
+        f"{minutes:.1f} minutes at {_range(about['rate_hz'])} Hz."
     ]
     if corpus.single_signs:
         text.append(design(about))
@@ -181,11 +209,13 @@ def _short(owner: Owner) -> Section:
     elif owner.tagged:
         text.append("There is no transition between two signs of one utterance.")
     if owner.tags is not None:
-        text += _tags_told(owner)
-    many = len(owner.todo)
+        chance = owner.sources.tagged_table(owner.name, "tag_chance")
+        text += against_chance(chance, owner.window_s, owner.sources.settings.durations.alpha)
+    many = int((owner.todo["rank"] < 4).sum())
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
-        f"{many} things to look at, {grave} of them because results may be wrong."
+        f"{counted_words(many, 'thing', 'things')} to look at; because of {grave} of them results "
+        "may be wrong."
         if many else "Nothing in it looks odd."
     )  # fmt: skip
     return Section(
@@ -194,26 +224,13 @@ def _short(owner: Owner) -> Section:
     )  # fmt: skip
 
 
+def _counted(n: int, one: str) -> str:
+    return counted_words(n, one, one + "s")
+
+
 def _range(values: pd.Series) -> str:
     low, high = values.min(), values.max()
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
-
-
-def _tags_told(owner: Owner) -> Iterator[str]:
-    chance = owner.sources.tagged_table(owner.name, "tag_chance")
-    chance = chance[
-        (chance["tags"] == "all") & (chance["null"] == "circular shift")
-        & (chance["measure"] == "share within the window")
-        & ((chance["window_s"] - owner.window_s).abs() < 1e-9)
-    ]  # fmt: skip
-    for row in chance.itertuples():
-        better = row.value > row.chance_high
-        yield (
-            f"Tags and the {row.hand} hand: {row.value:.0%} of the starts and ends lie within "
-            f"{owner.window_s:g} s of a minimum of its speed; the same tags shifted in time would "
-            f"give {row.chance_low:.0%} to {row.chance_high:.0%}. "
-            + ("They mark where the hand slows down." if better else "That is no more than chance.")
-        )
 
 
 def _recordings(owner: Owner, files: dict[str, Path]) -> Section:
@@ -308,6 +325,9 @@ def _files(owner: Owner) -> Section:
         own += [(f"ELAN: {file.name}", file) for file in files[:20]]
         if len(files) > 20:
             own.append((f"all {len(files)} ELAN files", folder))
+    listing = owner.sources.home / "recordings" / f"{owner.name}.html"
+    if listing.is_file():
+        shared.insert(0, ("The pages of single recordings", listing))
     text = (
         "All tables of the corpus, to go on with. ELAN files have the refined tags in tiers of "
         "their own."

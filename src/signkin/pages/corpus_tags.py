@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pandas as pd
 from statsmodels.stats.proportion import proportion_confint
 
@@ -46,3 +48,30 @@ def worst_tags(boundaries: pd.DataFrame, intervals: pd.DataFrame) -> pd.DataFram
     signs = signs[["recording", "sign", "start_s", "end_s"]]
     found = nearest.merge(signs, on=["recording", "sign"], how="left")
     return found.sort_values("distance_s", ascending=False, na_position="first", kind="stable")
+
+
+def against_chance(chance: pd.DataFrame, window_s: float, alpha: float) -> Iterator[str]:
+    """Yield a sentence a hand: do tags lie nearer to minima of speed than by chance?
+
+    chance: the table `tag_chance`. It is decided by the mean share over all windows, corrected by
+    Holm, at level alpha; the share within window_s is told beside it.
+    """
+    shifted = chance[(chance["tags"] == "all") & (chance["null"] == "circular shift")]
+    least, most = shifted["window_s"].min(), shifted["window_s"].max()
+    within = shifted[
+        (shifted["measure"] == "share within the window")
+        & ((shifted["window_s"] - window_s).abs() < 1e-9)
+    ].set_index("hand")
+    for row in shifted[shifted["measure"] == "mean share"].itertuples():
+        if pd.isna(row.p_holm):
+            yield f"Tags and the {row.hand} hand: {row.note or 'nothing to compare'}."
+            continue
+        near = row.p_holm < alpha
+        share = f"{within.loc[row.hand, 'value']:.0%} of {row.n} starts and ends of signs"
+        yield (
+            f"{share} lie within {window_s:g} s of a minimum of speed of the {row.hand} hand. Over "
+            f"windows from {least:g} to {most:g} s it is {row.value:.0%} on average, and "
+            f"{row.chance_low:.0%} to {row.chance_high:.0%} if the same tags are shifted in time "
+            f"(p = {row.p_holm:.2g} by Holm): "
+            + ("nearer than chance." if near else "no nearer than chance has it.")
+        )

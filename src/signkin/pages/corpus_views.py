@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 S3 = ".3f"
 ROW_KEYS = ("recording", "signer")
+RATED = ("rated", "noted")
 
 
 # --- recordings ------------------------------------------------------------------------------
@@ -32,6 +33,7 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
         page=[owner.sources.excerpt(owner.name, r) for r in owner.overview["recording"]],
         rating="",
     )
+    frame = rated(owner, frame)
     extra = owner.about.set_index("recording")
     for column in sign_columns(owner.sources.corpora[owner.name]):
         frame[column] = frame["recording"].map(extra[column])
@@ -60,13 +62,14 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
         columns=columns,
         file=file,
         most=25,
-        keys=ROW_KEYS,
+        keys=(*ROW_KEYS, *RATED),
     )
 
 
 def _plots(owner: Owner) -> Iterator[PlotView]:
     if owner.transitions is not None and len(counted(owner.transitions)):
-        yield _means(owner)
+        if owner.overview["mean_s"].notna().sum() > 1:
+            yield _means(owner)
         yield _distances(owner)
     elif len(owner.overview):
         yield _lengths(owner)
@@ -127,6 +130,8 @@ def _distances(owner: Owner) -> PlotView:
 
 def _lengths(owner: Owner) -> PlotView:
     rows = owner.overview
+    if not rows["gap_share"].any():
+        return _whole(owner)
     points = [
         Point(
             row.duration_s, row.gap_share * 100, row.recording, row.signer,
@@ -149,6 +154,40 @@ def _lengths(owner: Owner) -> PlotView:
     )
 
 
+def rated(owner: Owner, frame: pd.DataFrame) -> pd.DataFrame:
+    """Return rows with what their owner thought of them before this run."""
+    found = [owner.rating(row) for row in frame.itertuples()]
+    return frame.assign(
+        rated=[one.rating if one else "" for one in found],
+        noted=[one.note if one else "" for one in found],
+    )
+
+
+URGENCY = {1: "results may be wrong", 2: "look", 3: "if there is time", 4: "rated ok"}
+
+
+def _whole(owner: Owner) -> PlotView:
+    """Return lengths alone, where nothing is missing."""
+    rows = owner.overview.sort_values("duration_s", kind="stable")
+    points = [
+        Point(rank, row.duration_s, row.recording, row.signer,
+              f"{row.recording}, {row.signer}: {row.duration_s:.2f} s")
+        for rank, row in enumerate(rows.itertuples(), start=1)
+    ]  # fmt: skip
+    shown, told = thinned(points)
+    finding = (
+        f"Lengths of {len(rows)} recordings go from {rows['duration_s'].min():.2f} to "
+        f"{rows['duration_s'].max():.2f} s; half of them are longer than "
+        f"{rows['duration_s'].median():.2f} s. No position is missing."
+    )
+    return PlotView(
+        label="",
+        title="Length of each recording",
+        caption=f"{finding} Shortest first.{told}",
+        drawing=scatter(shown, "recordings, shortest first", "length (s)", finding, numbers=False),
+    )
+
+
 def todo_view(owner: Owner, file: Path) -> TableView:
     """Return the list of what to look at."""
     frame = owner.todo
@@ -160,8 +199,9 @@ def todo_view(owner: Owner, file: Path) -> TableView:
         rating="",
         start=_key(frame["start_s"], frame["what"]),
         end=_key(frame["end_s"], frame["what"]),
-        urgency=frame["rank"].map({1: "results may be wrong", 2: "look", 3: "if there is time"}),
+        urgency=frame["rank"].map(URGENCY),
     )
+    frame = rated(owner, frame)
     columns: dict[str, tuple[str, str]] = {
         "urgency": ("how urgent", ""), "what": ("what", ""), "recording": ("recording", ""),
         "signer": ("signer", ""), "gloss": ("sign", ""), "start_s": ("from (s)", ".2f"),
@@ -181,7 +221,7 @@ def todo_view(owner: Owner, file: Path) -> TableView:
         columns=columns,
         file=file,
         most=20,
-        keys=("recording", "signer", "what", "start", "end", "gloss"),
+        keys=("recording", "signer", "what", "start", "end", "gloss", *RATED),
     )
 
 

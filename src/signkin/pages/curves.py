@@ -41,7 +41,7 @@ def draw_curves(
         for curve in paper.curves:
             specs, left_out = {}, {}
             for part in evidence:
-                table = _table(paper, curve, part, files, results)
+                table = table_of(paper, curve, part, files, results)
                 if table is None:
                     continue
                 found = specifications(table, curve.choices, curve.estimate, curve.reference)
@@ -52,9 +52,10 @@ def draw_curves(
                 yield _drawn(paper, curve, specs, left_out, corpora)
 
 
-def _table(
+def table_of(
     paper: Paper, curve: Curve, evidence: Evidence, files: Sequence[Path], results: Path
 ) -> pd.DataFrame | None:
+    """Return a curve's table for one corpus, with its column `holds`; None where there is none."""
     shared = results / paper.study / f"{curve.table}.csv"
     if curve.table not in evidence.files and shared in files:
         known = {**evidence.files, curve.table: shared}

@@ -10,6 +10,7 @@ import pandas as pd
 
 from signkin.audit.ledger import PRINT
 from signkin.corpus import Corpus
+from signkin.pages.corpus_tags import against_chance
 from signkin.pages.sources import Sources
 from signkin.pages.warnings import counted, groups
 from signkin.report.page import Section, TableView
@@ -52,6 +53,23 @@ def front_lead(sources: Sources) -> tuple[str, ...]:
         "The papers' own recordings are not public: their printed numbers stand beside ours, and "
         "no corpus here is theirs.",
     )
+
+
+def summary_lines(sources: Sources) -> list[str]:
+    """Return what a run says at its end: what to look at, then the lines that matter."""
+    warned = [group.told for group in groups(sources) if group.warns]
+    claims = read_table(sources.results / "audit" / "claims.csv", "claims")
+    printed = claims[claims["evidence"] == PRINT].drop_duplicates(["paper", "id"])
+    verdicts = printed["verdict"].value_counts()
+    outcomes = _outcomes(claims)["outcome"].value_counts()
+    whole = ", ".join(f"{n} {word}" for word, n in verdicts.items())
+    real = ", ".join(f"{n} {word}" for word, n in outcomes.items())
+    return [
+        *(f"Look at: {told}." for told in warned),
+        front_lead(sources)[0].partition(". ")[0] + ".",
+        f"Claims on print: {whole}.",
+        f"Claims on real recordings: {real}.",
+    ]
 
 
 def _first(sources: Sources) -> Section:
@@ -134,11 +152,8 @@ def _row(sources: Sources, name: str, corpus: Corpus) -> dict[str, object]:
 # --- what holds, what is open ----------------------------------------------------------------
 
 
-QUESTIONS = {
+QUESTIONS = {  # of the tests of durations, those that a first reader has
     "type": "Do durations differ by the types of the two signs?",
-    "change of hands": "Do durations differ by how many hands the signs have?",
-    "hands before x hands after": "Does the number of hands matter, before and after?",
-    "symmetry before x symmetry after": "Does symmetry of two-handed signs matter?",
     "isochrony": "Do longer ways take longer?",
 }
 
@@ -147,6 +162,7 @@ def _owner_findings(sources: Sources) -> Section:
     order = sorted(sources.corpora, key=lambda name: sources.corpora[name].simulator is not None)
     rows = [row for name in order for row in _tag_findings(sources, name)]
     rows += [row for name in order for row in _duration_findings(sources, name)]
+    rows += [row for name in order for row in _piece_findings(sources, name)]
     view = TableView(
         label="",
         title="Findings by corpus",
@@ -169,27 +185,12 @@ def _owner_findings(sources: Sources) -> Section:
 def _tag_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
     if not sources.corpora[name].tagged:
         return
-    window = sources.settings.refinement.search_window_s
-    frame = sources.tagged_table(name, "tag_chance")
-    kept = frame[
-        (frame["tags"] == "all") & (frame["null"] == "circular shift")
-        & (frame["measure"] == "share within the window")
-        & ((frame["window_s"] - window).abs() < 1e-9)
-    ]  # fmt: skip
-    for row in kept.itertuples():
-        better = row.value > row.chance_high
-        told = (
-            f"{row.value:.0%} of {row.n} tags lie within {window:g} s of a minimum of speed of the "
-            f"{row.hand} hand; by chance {row.chance_low:.0%} to {row.chance_high:.0%}: "
-            + ("nearer than chance." if better else "no nearer than chance.")
-        )
-        yield _finding(
-            sources,
-            name,
-            "Do tags lie where the hand slows down?",
-            told,
-            f"corpora/{name}.html#tags",
-        )
+    settings = sources.settings
+    chance = sources.tagged_table(name, "tag_chance")
+    window, alpha = settings.refinement.search_window_s, settings.durations.alpha
+    for told in against_chance(chance, window, alpha):
+        question = "Do tags lie where the hand slows down?"
+        yield _finding(sources, name, question, told, f"corpora/{name}.html#tags")
 
 
 def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
@@ -198,9 +199,48 @@ def _duration_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
     frame = sources.tagged_table(name, "statistics")
     words = frame[frame["kind"] == "words"].drop_duplicates("comparison")
     for row in words.itertuples():
-        question = QUESTIONS.get(str(row.comparison), str(row.comparison))
-        first = re.split(r"(?<=[a-z)])[.;:] ", str(row.note), maxsplit=1)[0].rstrip(".") + "."
-        yield _finding(sources, name, question, first, "papers/naert2017.html#durations")
+        if row.comparison not in QUESTIONS:
+            continue
+        told = (
+            str(row.note)
+            .replace("_rad:", " distance:")
+            .replace("_m:", " distance:")
+            .replace("_px:", " distance:")
+        )
+        if row.comparison == "type":
+            told = re.split(r"(?<=[a-z)])[.:] ", told, maxsplit=1)[0].rstrip(".") + "."
+        question = QUESTIONS[str(row.comparison)]
+        yield _finding(sources, name, question, told, "papers/naert2017.html#durations")
+
+
+def _piece_findings(sources: Sources, name: str) -> Iterator[dict[str, str]]:
+    folder = sources.results / "endres2013" / name
+    if sources.corpora[name].single_signs:
+        frame = read_table(folder / "order_posteriors.csv", "order_posteriors")
+        whole = (frame["signer"] == "all") & (frame["sign"] == "all")
+        kept = frame[whole & (frame["dataset"] == "recorded")]
+        if kept["mean_probability"].notna().any():
+            best = kept.loc[kept["mean_probability"].idxmax()]
+            told = (
+                f"Order {int(best['order'])} is the most probable (P = "
+                f"{best['mean_probability']:.2f} on average), with {best['mean_count']:.1f} "
+                "boundaries a movement; the paper has order 4. A prior that it does not print "
+                "decides this."
+            )
+            question = "Which polynomials are the pieces of a movement?"
+            yield _finding(sources, name, question, told, "papers/endres2013.html#found")
+        return
+    frame = read_table(folder / "one_wrist.csv", "one_wrist")
+    kept = frame[(frame["found"] == "boundaries") & (frame["truth"] == "manual tags")]
+    for row in kept[kept["hit_rate"].notna()].itertuples():
+        more = row.hit_rate > row.chance_high
+        told = (
+            f"{row.hit_rate:.0%} of the tags have a boundary of the {row.hand} wrist within "
+            f"{row.window_s:g} s, by chance {row.chance_low:.0%} to {row.chance_high:.0%}: "
+            + ("more than chance." if more else "no more than chance.")
+        )
+        question = "Do pieces of a wrist's path start and end where signs do?"
+        yield _finding(sources, name, question, told, f"papers/one_wrist.html#{name}")
 
 
 def _finding(sources: Sources, name: str, question: str, found: str, more: str) -> dict[str, str]:

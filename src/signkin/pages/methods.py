@@ -47,14 +47,14 @@ def _sections(section: BaseModel, default: BaseModel, name: str) -> Iterator[Sec
                 "key": f"{name}.{key}".lstrip("."),
                 "value": yaml_value(plain(value)),
                 "unit": extra.get("unit", ""),
-                "what": field.description or "",
+                "what": (field.description or "").replace("`", ""),
                 "paper": extra.get("paper", ""),
                 "default": "" if value == usual else yaml_value(plain(usual)),
                 "allowed": allowed(type(section), key).replace("`", ""),
             }
         )
     if rows:
-        yield _section(name, " ".join((type(section).__doc__ or "").split()), rows)
+        yield _section(name, " ".join((type(section).__doc__ or "").replace("`", "").split()), rows)
     for value, usual, deeper in inner:
         yield from _sections(value, usual, deeper)
 

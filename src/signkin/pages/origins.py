@@ -16,11 +16,13 @@ from signkin import tables
 from signkin.checkout import checkout
 from signkin.exhibits import exhibits, of_groups
 from signkin.pages.sources import Sources
+from signkin.pages.times import TIMES
 from signkin.report.exhibit_views import exhibit_view
 from signkin.report.page import Page, Section, TableView
 from signkin.tables import write_table
 
 PROVENANCE = "Provenance"
+RUNS = r"extra == .(workflow|cluster|c3d)."  # extras that a run uses; the others are for tests
 
 
 def origins_page(
@@ -68,6 +70,7 @@ def _packages() -> Iterator[tuple[str, str]]:
         wanted = distribution("signkin").requires or []
     except PackageNotFoundError:
         wanted = []
+    wanted = [text for text in wanted if "extra" not in text or re.search(RUNS, text)]
     names = {re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0] for requirement in wanted}
     for name in sorted(names, key=str.lower):
         try:
@@ -156,5 +159,5 @@ def _cost(sources: Sources) -> Section:
         "cost", "Time and memory",
         text=("Every job notes its time and memory; they differ from run to run, so they stand on "
               "a page of their own, which `signkin run` writes at its end.",),
-        links=(("Time and memory of each step", sources.home / "times.html"),),
+        links=(("Time and memory of each step", sources.results.parent / "logs" / TIMES),),
     )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -23,14 +24,29 @@ ONE_WRIST = "One wrist"
 
 def naert_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
     """Return the page of Naert, Larboulette & Gibet 2017."""
+    parts = [_folded(part) for part in naert_report.sections(sources.naert)]
     return _page(
         sources, site, NAERT,
         "Naert, Larboulette & Gibet 2017: Coarticulation Analysis for Sign Language Synthesis",
         "The paper's tables and figures in its order, made of every corpus with tags. Its own "
         "recordings (Sign3D, French Sign Language, motion capture) are not public; no corpus here "
         "is theirs, and lsf-sim is made by a program to carry the printed numbers.",
-        [*_printed(sources), *_overview(sources), *naert_report.sections(sources.naert)],
+        [*_printed(sources), *_overview(sources), *parts],
     )  # fmt: skip
+
+
+def _folded(section: Section) -> Section:
+    """Return a section with what the paper does not have behind its title.
+
+    How a figure differs from the print is told at the first corpus alone.
+    """
+    told: set[str] = set()
+    views = []
+    for view in section.exhibits:
+        differs = "" if view.label in told else view.differs
+        told |= {view.label} if view.label else set()
+        views.append(replace(view, folded=not view.label, differs=differs))
+    return replace(section, exhibits=views)
 
 
 def endres_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
@@ -44,7 +60,7 @@ def endres_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
         "The paper's analyses of single signs, run on every corpus of single signs. Its own "
         "recordings (Israeli Sign Language, 240 Hz) are not public. What it does not print of the "
         "prior decides its results: each corpus has a figure of how far.",
-        list(parts),
+        [_folded(part) for part in parts],
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import signkin
 from signkin.pages.corpus_page import Owner, corpus_page
-from signkin.pages.front import front_lead, front_sections
+from signkin.pages.front import front_lead, front_sections, summary_lines
 from signkin.pages.methods import METHODS, methods_page
 from signkin.pages.origins import PROVENANCE, origins_page, write_data_files
 from signkin.pages.papers import (
@@ -28,6 +28,7 @@ from signkin.report.page import Page, Section, render
 from signkin.unavailable import reason_of
 
 FRONT = "Front page"
+SUMMARY = "summary.txt"  # what a run says at its end
 Maker = Callable[[Sources, list[tuple[str, Path]]], Page]
 
 
@@ -101,6 +102,8 @@ def write_site(sources: Sources, commit: str) -> None:
         owner = Owner(sources, name)
         written = owner.write(files[name].parent)
         pages[name] = _attempted(name, sources, site, partial(corpus_page, owner, written, site))
+    told = "\n".join(summary_lines(sources)) + "\n"
+    (sources.home / SUMMARY).write_text(told, encoding="utf-8")
     for name, page in pages.items():
         file = files[name]
         file.write_text(render(page, file.parent, images), encoding="utf-8")

@@ -51,6 +51,7 @@ class TableView:
     keys: Sequence[str] = ()
     of: str = ""  # the corpus, where a page has several
     badge: str = ""  # `simulated`, `real` or nothing
+    folded: bool = False  # behind its title
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,7 @@ class FigureView:
     differs: str = ""
     of: str = ""
     badge: str = ""
+    folded: bool = False
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,7 @@ class PlotView:
     differs: str = ""
     of: str = ""
     badge: str = ""
+    folded: bool = False
 
 
 View = TableView | FigureView | PlotView

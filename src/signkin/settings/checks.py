@@ -11,7 +11,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from signkin.errors import SignkinError, listed
-from signkin.settings.sections import Settings
+from signkin.settings.sections import Prior, Settings
 
 Model = TypeVar("Model", bound=BaseModel)
 HINT = "docs/configuration.md tells each key's unit and meaning."
@@ -186,6 +186,10 @@ def contradictions(settings: Settings) -> Iterator[tuple[str, str, str]]:
     ):
         if max(orders) >= bins:
             yield place, f"order {max(orders)} with {bins} bins", f"orders below {bins}"
+    for place, prior in (
+        ("binning.prior", binning.prior), ("open_choices.endres2013.beside", choices.beside),
+    ):  # fmt: skip
+        yield from _prior_without_unit(place, prior)
     own = binning.continuous
     if own.longest_segment_s < (own.order + 1) * own.bin_s:
         yield (
@@ -223,6 +227,25 @@ def contradictions(settings: Settings) -> Iterator[tuple[str, str, str]]:
                 "each name once a corpus",
             )
         made.add((wanted.corpus, wanted.name))
+
+
+def _prior_without_unit(place: str, prior: Prior) -> Iterator[tuple[str, str, str]]:
+    literal = prior.scale == "literal"
+    if literal and prior.noise != "data":
+        yield (
+            f"{place}.noise", f"{prior.noise} with scale literal",
+            "data: read literally, V is the data's variances",
+        )  # fmt: skip
+    if literal and prior.length_unit is None:
+        yield (
+            f"{place}.length_unit", "no unit of length with scale literal",
+            "mm, cm or m: the data's variances as precisions depend on it",
+        )  # fmt: skip
+    if not literal and prior.length_unit is not None:
+        yield (
+            f"{place}.length_unit", f"{prior.length_unit} with scale {prior.scale}",
+            "null: nothing depends on the unit of length, or scale literal",
+        )  # fmt: skip
 
 
 def check_shown_orders(settings: Settings, file: str | Path) -> None:

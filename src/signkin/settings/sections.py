@@ -16,8 +16,13 @@ Grid = Annotated[tuple[Positive, ...], Field(min_length=1, strict=False), AfterV
 Shares = Annotated[tuple[Share, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
 Orders = Annotated[tuple[Order, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
 Names = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
+Degrees = Annotated[
+    tuple[Annotated[float, Field(gt=0, le=1e9)] | None, ...],
+    Field(strict=False), AfterValidator(each_once),
+]  # fmt: skip
 Draws = Annotated[int, Field(ge=100, le=1_000_000)]
 TimeUnit = Literal["bin", "second", "trajectory"]
+LengthUnit = Literal["mm", "cm", "m"]
 DurationRule = Literal["simple", "simple_bounded", "linear", "surface"]
 
 
@@ -255,14 +260,19 @@ class Prior(Section):
 
     noise: Literal["sensor", "data"] = key(
         "sensor", "`sensor`: the corpus's noise_sd. `data`: the data's own variances, as the paper "
-        "prints, which finds almost no boundaries.", paper="Endres 3.2",
+        "prints, which finds almost no boundaries unless scale is literal.", paper="Endres 3.2",
     )  # fmt: skip
     dof: Annotated[float, Field(gt=0, le=1e9)] | None = key(
         None, "Degrees of freedom of the Wishart density; null: the number of dimensions.",
         paper="Endres prints none",
     )  # fmt: skip
-    scale: Literal["expected", "plain"] = key(
-        "expected", "`expected`: V^-1 = dof times the variance, `plain`: the variance.",
+    scale: Literal["expected", "plain", "literal"] = key(
+        "expected", "`expected`: V^-1 = dof times the variance, `plain`: the variance. `literal`: "
+        "V itself, a precision, is the data's variance, in the unit of length_unit.",
+        paper="Endres 2.5.5: V the scale matrix of the Wishart density",
+    )  # fmt: skip
+    length_unit: LengthUnit | None = key(
+        None, "Unit of length of V's numbers; mandatory with `literal`, and null without.",
         paper="Endres prints none",
     )  # fmt: skip
     concentration: float = key(
@@ -302,8 +312,8 @@ class Binning(Section):
         80, "How many of a corpus's recordings they are made of, at most.", ge=1
     )
     recovery_noise: float = key(
-        0.1, "The prior's noise for them, as a share of the one above: no sensor's noise is in "
-        "them.",
+        0.1, "The prior's noise for them, as a share of the sensor's, which is not in them. With "
+        "prior.noise `data` nothing is taken off: the variances are their own.",
         gt=0, le=1000,
     )  # fmt: skip
     bootstrap_draws: Draws = key(2000, "Draws of the bootstrap.")
@@ -331,14 +341,17 @@ class NaertChoices(Section):
 
 
 class EndresChoices(Section):
-    """What Endres et al. do not print decides their results: all combinations are run."""
+    """What Endres et al. do not print decides their results: all combinations are run.
+
+    beside: the prior that Fig. 3 to 7 are shown with once more, beside binning.prior.
+    """
 
     recordings: int = key(8, "On so many recordings of each corpus.", ge=1)
+    learnt_recordings: int = key(
+        24, "The prior is learnt on half of so many recordings, and the other half predicted.", ge=4
+    )
     orders: Orders = key((0, 1, 2, 3, 4, 5, 6, 7), "Polynomial orders S.")
-    dof: Annotated[
-        tuple[Annotated[float, Field(gt=0, le=1e9)] | None, ...],
-        Field(min_length=1, strict=False), AfterValidator(each_once),
-    ] = key((None, 5, 30, 1000), "As binning.prior.dof.")  # fmt: skip
+    dof: Annotated[Degrees, Field(min_length=1)] = key((None, 5, 30, 1000), "As binning.prior.dof.")
     noise: Annotated[
         tuple[Literal["sensor expected", "sensor plain", "data expected", "data plain"], ...],
         Field(min_length=1, strict=False), AfterValidator(each_once),
@@ -347,6 +360,13 @@ class EndresChoices(Section):
         "binning.prior.noise and binning.prior.scale.",
     )  # fmt: skip
     concentration: Grid = key((0.001, 0.1, 10.0), "As binning.prior.concentration.")
+    literal_dof: Degrees = key(
+        (None, 3.5, 4, 5, 10), "As binning.prior.dof, with the data's variances as V itself "
+        "(binning.prior.scale: literal); [] leaves this reading out.", paper="Endres 2.5.5, 3.2",
+    )  # fmt: skip
+    literal_unit: Annotated[
+        tuple[LengthUnit, ...], Field(min_length=1, strict=False), AfterValidator(each_once)
+    ] = key(("mm", "cm", "m"), "And as binning.prior.length_unit.")
     time_unit: Annotated[
         tuple[TimeUnit, ...], Field(min_length=1, strict=False), AfterValidator(each_once)
     ] = key(("bin", "second", "trajectory"), "As binning.prior.time_unit.")
@@ -354,6 +374,22 @@ class EndresChoices(Section):
         tuple[Annotated[int, Field(ge=10, le=10_000)], ...],
         Field(min_length=1, strict=False), AfterValidator(each_once),
     ] = key((50, 100), "As binning.bins.")  # fmt: skip
+    beside: Prior = Prior(noise="data", scale="literal", length_unit="mm")
+
+
+class IslSim(Section):
+    """The simulated corpus isl-sim: fields of signkin.simulate.isl.Recipe."""
+
+    order: Literal[3, 5, 7] = key(
+        5, "Order of its strokes: 3, 5 or 7, of least acceleration, jerk or snap."
+    )
+    parts: int = key(1, "How many strokes stand for one of the design.", ge=1, le=20)
+
+
+class Simulation(Section):
+    """How the simulated corpora are made."""
+
+    isl: IslSim = IslSim()
 
 
 class OpenChoices(Section):
@@ -393,6 +429,7 @@ class Settings(Section):
         1000, "Recordings that share a job: the start-up of a job is about 2 s, a short recording "
         "takes 2 ms.", ge=1,
     )  # fmt: skip
+    simulation: Simulation = Simulation()
     kinematics: Kinematics = Kinematics()
     refinement: Refinement = Refinement()
     transitions: Transitions = Transitions()

@@ -4,7 +4,8 @@ The design is that of the recordings of Endres et al. 2013, section 2.2: two sig
 many repetitions, one sensor at the wrist, 240 Hz, 0.8 mm of noise. A sign is a path of its own
 (a loop and a push; an arc and a fold). A signer has a style: size, tempo, turn of the body, and a
 way of their own through each sign. A repetition has its own timing and size. The hand rests,
-signs in overlapping minimum-jerk strokes, and rests again.
+signs in overlapping minimum-jerk strokes, and rests again. A `Recipe` makes the same signs of
+strokes of least acceleration or snap, or of more strokes.
 
 It shows whether the analysis finds what was put in. It says nothing about people.
 """
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 
 from signkin import seeds
 from signkin.errors import SignkinError, listed
-from signkin.simulate.strokes import Stroke, superposed
+from signkin.simulate.strokes import JERK, Stroke, superposed
 
 T = TypeVar("T")
 
@@ -93,6 +94,24 @@ HABIT_M, HABIT_LOG = 0.016, 0.07
 AGAIN_SIZE_LOG, AGAIN_TEMPO_LOG, AGAIN_M = 0.05, 0.05, 0.009
 AGAIN_LOG, AGAIN_OVERLAP, AGAIN_REST_M = 0.07, 0.03, 0.008
 OVERLAP_RANGE = (0.20, 0.60)
+BEND = 0.25  # SD of how far the inner ends of a stroke's parts lie off it, of a part's length
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What strokes are made of, beside the design.
+
+    order: of their polynomials: 3, 5 or 7, for least acceleration, jerk or snap. parts: how many
+    strokes stand for one of the design; where they meet the path bends by `BEND` of their length.
+    """
+
+    order: int = JERK
+    parts: int = 1
+
+    def __post_init__(self) -> None:
+        """Refuse what makes no stroke."""
+        if self.parts < 1:
+            raise SignkinError(f"{self.parts} parts", place="simulator", expected="1 or more")
 
 
 class Planned(Protocol):
@@ -125,19 +144,23 @@ class SimulatedTake:
 
 
 def simulate(
-    planned: Iterable[Planned], corpus: str, noise_sd_m: float, seed: int
-) -> list[SimulatedTake]:
+    planned: Iterable[Planned], corpus: str, noise_sd_m: float, seed: int,
+    recipe: Recipe | None = None,
+) -> list[SimulatedTake]:  # fmt: skip
     """Simulate the recordings of a corpus, each from a random stream of its own.
 
-    noise_sd_m: standard deviation of the sensors' white noise, the same in each axis.
+    noise_sd_m: standard deviation of the sensors' white noise, the same in each axis. recipe: of
+    the strokes; None: one stroke of least jerk for each of the design.
     """
+    made_of = recipe or Recipe()
     takes = []
     for row in planned:
         style = _known(STYLES, row.signer, "signer", row.recording)
         sign = _known(SIGNS, row.sign, "sign", row.recording)
         habit = seeds.stream(seed, corpus, row.signer, row.sign)
         own = seeds.stream(seed, corpus, row.recording)
-        takes.append(_take(row.recording, _habitual(sign, style, habit), style, noise_sd_m, own))
+        usual = _habitual(sign, style, habit)
+        takes.append(_take(row.recording, usual, style, noise_sd_m, own, made_of))
     return takes
 
 
@@ -170,10 +193,15 @@ def _habitual(sign: Sign, style: Style, rng: np.random.Generator) -> Sign:
 
 
 def _take(
-    recording: str, sign: Sign, style: Style, noise_sd_m: float, rng: np.random.Generator
-) -> SimulatedTake:
+    recording: str, sign: Sign, style: Style, noise_sd_m: float, rng: np.random.Generator,
+    recipe: Recipe,
+) -> SimulatedTake:  # fmt: skip
     rest = REST_M["right"] + rng.normal(0, AGAIN_REST_M, 3)
-    strokes = _strokes(sign, style, rest, rng)
+    strokes = [
+        part
+        for stroke in _strokes(sign, style, rest, rng)
+        for part in _parts(stroke, style.overlap, recipe, rng)
+    ]
     frames = round((max(s.offset_s for s in strokes) + rng.uniform(*REST_S)) * RATE_HZ)
     at_s = np.arange(frames) / RATE_HZ
     path = superposed(rest, strokes, at_s) + _sway(at_s, rng)
@@ -204,6 +232,37 @@ def _strokes(
         strokes.append(Stroke(float(onset), float(duration), displacement))
         onset += (1 - overlap) * duration
     return strokes
+
+
+def _parts(
+    stroke: Stroke, overlap: float, recipe: Recipe, rng: np.random.Generator
+) -> list[Stroke]:
+    """Return the strokes that stand for one of the design: over the same time and way."""
+    n = recipe.parts
+    if n == 1:
+        return [Stroke(stroke.onset_s, stroke.duration_s, stroke.displacement_m, recipe.order)]
+    bends = rng.normal(0, BEND * stroke.length_m / n, (n - 1, 3))
+    ways = np.diff(np.vstack([np.zeros(3), *bends, np.zeros(3)]), axis=0)
+    # Each overlaps the next one, as strokes of the design do; the last ends with the whole.
+    duration = stroke.duration_s / (1 + (n - 1) * (1 - overlap))
+    return [
+        Stroke(
+            stroke.onset_s + i * (1 - overlap) * duration, duration,
+            stroke.displacement_m / n + way, recipe.order,
+        )
+        for i, way in enumerate(ways)
+    ]  # fmt: skip
+
+
+def stroke_ends(
+    take: SimulatedTake, from_s: float = 0.0, to_s: float = np.inf
+) -> NDArray[np.float64]:
+    """Return where strokes start and end, in s within a stretch, from its start on, sorted.
+
+    Between two such instants the path is one polynomial, of the recipe's order (and the sway).
+    """
+    times = np.unique([t for s in take.strokes for t in (s.onset_s, s.offset_s)])
+    return times[(times > from_s) & (times < to_s)] - from_s
 
 
 def _sway(at_s: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:

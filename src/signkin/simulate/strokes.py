@@ -1,4 +1,8 @@
-"""Minimum-jerk strokes: the building block of simulated hands (Flash & Hogan 1985, eq. 7)."""
+"""Strokes from rest to rest: the building block of simulated hands (Flash & Hogan 1985, eq. 7).
+
+What a movement makes least decides its polynomial: acceleration order 3, jerk order 5, snap order
+7, each at rest at both ends with all derivatives below the one that is least.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +12,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from signkin.errors import SignkinError
+
+# Coefficients of tau^k, from k = 0 on, of the share that is done at the share tau of the time.
+SHARES: dict[int, tuple[float, ...]] = {
+    3: (0, 0, 3, -2),
+    5: (0, 0, 0, 10, -15, 6),
+    7: (0, 0, 0, 0, 35, -84, 70, -20),
+}
+JERK = 5
+
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """A straight movement from rest to rest: when (s), how long (s), how far, (3,) in metres."""
+    """A straight movement from rest to rest: when (s), how long (s), how far, (3,) in metres.
+
+    order: of its polynomial, a key of `SHARES`.
+    """
 
     onset_s: float
     duration_s: float
     displacement_m: NDArray[np.float64]
+    order: int = JERK
 
     @property
     def offset_s(self) -> float:
@@ -28,10 +46,19 @@ class Stroke:
         return float(np.linalg.norm(self.displacement_m))
 
 
-def share_done(tau: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the share of a minimum-jerk movement that is done at the share `tau` of its time."""
+def share_done(tau: NDArray[np.float64], order: int = JERK) -> NDArray[np.float64]:
+    """Return the share of a movement that is done at the share `tau` of its time.
+
+    order: 3, 5 or 7 for least acceleration, jerk or snap. Raises SignkinError for another.
+    """
+    if order not in SHARES:
+        raise SignkinError(
+            f"no stroke is of order {order}", place="simulator", expected="3, 5 or 7"
+        )
     tau = np.clip(tau, 0, 1)
-    return np.asarray(tau**3 * (10 - 15 * tau + 6 * tau**2))
+    if order == JERK:
+        return np.asarray(tau**3 * (10 - 15 * tau + 6 * tau**2))
+    return np.asarray(np.polynomial.polynomial.polyval(tau, SHARES[order]))
 
 
 def superposed(
@@ -44,6 +71,6 @@ def superposed(
     """
     path = np.tile(np.asarray(start_m, dtype=float), (len(at_s), 1))
     for stroke in strokes:
-        done = share_done((at_s - stroke.onset_s) / stroke.duration_s)
+        done = share_done((at_s - stroke.onset_s) / stroke.duration_s, stroke.order)
         path += done[:, None] * stroke.displacement_m
     return path

@@ -11,12 +11,13 @@ from typing import Any
 import pandas as pd
 
 from signkin import tables
-from signkin.annotation import Annotation, Interval
+from signkin.annotation import Annotation, Interval, LeftOut
 from signkin.annotation_rules import signs_of_hands
 from signkin.corpus import Corpus, Entry, check_checksum, data_file
 from signkin.errors import SignkinError
 from signkin.io import read_annotation, read_recording, wants_rate
 from signkin.kinematics.rotations import with_limb_frames
+from signkin.ratings import tag_ratings
 from signkin.recording import Recording
 
 MOST_TOLD = 5  # tags left out that a table names; the others it counts
@@ -46,6 +47,9 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
     out = Ingested()
     checked: set[str] = set()
     for entry in entries:
+        if entry.rating == "exclude":
+            out.excluded.append(rated_row(corpus, entry))
+            continue
         try:
             for name in (entry.motion, entry.annotation):
                 if name and name not in checked:
@@ -70,9 +74,8 @@ def refuse_none(corpus: Corpus, excluded: Sequence[dict[str, Any]], left: int) -
     if not left:
         first = excluded[0]["reason"] if excluded else "there was none before"
         raise SignkinError(
-            f"no recording can be used; the first: {first}",
+            f"no recording can be used; the first: {str(first).rstrip('.')}",
             file=corpus.folder,
-            expected="one recording or more",
         )
 
 
@@ -80,6 +83,13 @@ def read_entry(corpus: Corpus, folder: Path, entry: Entry) -> tuple[Recording, A
     """Return a recording as the corpus describes it, and its tags where the corpus has tags."""
     recording = _recording(corpus, folder, entry)
     return recording, _annotation(corpus, folder, entry, recording)
+
+
+def rated_row(corpus: Corpus, entry: Entry) -> dict[str, Any]:
+    """Return the row that lists a recording as left out because its owner says so."""
+    why = f": {entry.rating_note}" if entry.rating_note else ""
+    reason = f"rated `exclude` in recordings.csv, line {entry.line}{why}"
+    return {**lead(corpus, entry.recording), "stage": "rating", "reason": reason}
 
 
 def excluded_row(corpus: Corpus, recording: str, stage: str, error: Exception) -> dict[str, Any]:
@@ -143,6 +153,7 @@ def _annotation(
     annotation = read_annotation(path, **spec)
     try:
         annotation = _one_line_of_signs(corpus, entry, annotation)
+        annotation = _without_excluded(corpus, entry, annotation)
         if not of_role(corpus, entry, annotation, "sign"):
             raise SignkinError("no sign", place="key annotation", expected="one or more")
         # Annotators tag video, whose last frame may end one frame after the motion does.
@@ -198,6 +209,28 @@ def _one_line_of_signs(corpus: Corpus, entry: Entry, annotation: Annotation) -> 
         intervals=(*others, *signs),
         left_out=(*annotation.left_out, *left_out),
     )
+
+
+def _without_excluded(corpus: Corpus, entry: Entry, annotation: Annotation) -> Annotation:
+    """Return the annotation without signs that are rated `exclude`, which are noted."""
+    rated = tag_ratings(corpus.folder).get(entry.recording, [])
+    ratings = [rating for rating in rated if rating.rating == "exclude"]
+    if not ratings:
+        return annotation
+    signs = {id(interval) for interval in of_role(corpus, entry, annotation, "sign")}
+    kept, left_out = [], []
+    for interval in annotation.intervals:
+        names = (interval.label, interval.as_written)
+        found = next(
+            (r for r in ratings if any(r.matches(interval.start_s, name) for name in names)), None
+        )
+        if found is None or id(interval) not in signs:
+            kept.append(interval)
+            continue
+        place = f"{interval.label} at {interval.start_s:.3f} s"
+        why = f"rated `exclude`{': ' + found.note if found.note else ''}"
+        left_out.append(LeftOut(interval.tier, place, why))
+    return replace(annotation, intervals=tuple(kept), left_out=(*annotation.left_out, *left_out))
 
 
 def tags_of(intervals: pd.DataFrame, recording: str) -> tuple[Interval, ...]:

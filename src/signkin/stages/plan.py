@@ -17,6 +17,7 @@ from signkin.corpus import (
 )
 from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
+from signkin.ratings import TAG_FILE
 from signkin.settings import Settings, load_settings
 from signkin.settings.checks import check_rate, check_shown_orders
 
@@ -131,7 +132,7 @@ class Plan:
     def description(self, corpus: str) -> list[str]:
         """Return the files of the corpus's own folder."""
         folder = self.corpora[corpus].folder
-        names = ("corpus.yaml", "recordings.csv", "signs.csv")
+        names = ("corpus.yaml", "recordings.csv", "signs.csv", TAG_FILE)
         return [str(folder / name) for name in names if (folder / name).is_file()]
 
     @property

@@ -22,6 +22,7 @@ EXAMPLES = """examples:
   signkin corpus check mine --data ~/recordings
   signkin corpus check boston104 --data ~/recordings
   signkin corpus check corpora/mine --all
+  signkin corpus rate ~/Downloads/ratings-mine.csv
   signkin corpus fetch mine --data ~/recordings
 """
 
@@ -41,6 +42,9 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--all", action="store_true", help="look at all recordings")
     check.add_argument("--out", type=Path, help="folder of the page and tables "
                        "(results/check/<corpus>)")  # fmt: skip
+    rate = what.add_parser("rate", help="put ratings that a page saved where the next run reads "
+                           "them: exclude leaves a recording or tag out")  # fmt: skip
+    rate.add_argument("ratings", type=Path, help="CSV of the page of a corpus")
     first = what.add_parser("init", help="describe a folder of recordings as a corpus")
     first.add_argument("folder", type=Path, help="folder with the motion and the annotations")
     first.add_argument("--name", help="of the corpus (the folder's name)")
@@ -56,6 +60,8 @@ def run_corpus(told: argparse.Namespace) -> int:
     try:
         if told.what == "init":
             return init_corpus(told.folder, told.name, told.into)
+        if told.what == "rate":
+            return rate_corpora(told.ratings)
         if told.what == "fetch":
             return fetch_corpus(told.corpus, told.data)
         return list_corpora(told.data) if told.what == "list" else check_corpus(told)
@@ -123,6 +129,25 @@ def list_corpora(data: str | None) -> int:
         state = "made by the run" if corpus.simulator else "there" if there else "no data"
         print(f"{name:14s} {len(corpus.entries):5d} recordings  {state:15s} "
               f"{', '.join(kinds) or 'no tags':26s} {corpus.settings['language']}")  # fmt: skip
+    return 0
+
+
+def rate_corpora(file: Path) -> int:
+    """Put the ratings of a file into the corpora that they are of, and print how many."""
+    from signkin.ratings import put, read_ratings
+
+    if not file.is_file():
+        raise SignkinError("there is no such file", file=file, todo="Save it on a corpus' page.")
+    given = read_ratings(file)
+    folders = {name: _corpora_folder() / name for name in given}
+    for name, folder in folders.items():
+        if not (folder / "recordings.csv").is_file():
+            raise SignkinError(f"no corpus {name!r}", file=file, expected=f"one of {folder.parent}")
+    for name, folder in folders.items():
+        counts = put(given[name], folder)
+        told = ", ".join(f"{n} {word}" for word, n in sorted(counts.items()))
+        print(f"{name}: {told}. Written: {folder / 'recordings.csv'}")
+    print("The next run (signkin run) leaves out what is rated exclude, and lists it.")
     return 0
 
 

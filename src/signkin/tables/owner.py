@@ -70,7 +70,9 @@ TABLES = (
         (
             *LEAD,
             text("what", "recording, tag, transition or gloss"),
-            Column("rank", "", "1: results may be wrong; 2: to look at; 3: if there is time"),
+            Column(
+                "rank", "", "1: results may be wrong; 2: look; 3: if there is time; 4: rated ok"
+            ),
             Column("start_s", "s", "from where in the recording; empty for the whole of it"),
             Column("end_s", "s", "to where"),
             text("gloss", "gloss of the sign, or those of the transition"),

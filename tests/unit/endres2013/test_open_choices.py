@@ -19,7 +19,7 @@ from support.endres import arc, corpus_of, recording_of, settings
 NAMES = ["a", "b"]
 GRID = {
     "recordings": 2, "orders": [0, 1, 3], "dof": [None, 5], "noise": ["sensor expected"],
-    "concentration": [0.1], "time_unit": ["bin"], "bins": [30],
+    "concentration": [0.1], "time_unit": ["bin"], "bins": [30], "literal_dof": [],
 }  # fmt: skip
 
 

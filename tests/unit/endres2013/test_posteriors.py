@@ -198,7 +198,12 @@ def test_rows_are_those_of_the_table_and_hits_are_against_the_own_truth():
         assert (whole["note"][whole["hpfpps"].isna()] != "").all()
     first, second, third = frames
     assert "hit_rate" not in first
-    assert set(first["note"]) == {"boundaries of recorded movements are not known"}
+    unknown = "boundaries of recorded movements are not known"
+    off = "SDs of the prior's noise off"  # steps cannot follow a slope
+    for row in first.itertuples():
+        assert row.note.startswith(unknown) and (off in row.note) == (row.noise_misfit > 3)
+        assert row.at_floor == "no"
+    assert first["note"].str.contains(off).any()
     row = second.set_index("order").loc[1]
     assert row["map_count"] == 2
     assert (row["hits"], row["misses"], row["false_positives"]) == (1, 1, 1)

@@ -41,10 +41,11 @@ def test_half_the_window_finds_no_more_and_changes_no_posterior(found):
     assert same[0].equals(same[1])
 
 
-def test_the_noise_of_the_recordings_makes_fewer_false_positives(found):
-    rates = found["readings_hit_rates"].query("dataset == 'fitted' and order == 3")
-    by = rates.set_index("reading")["false_positives_per_s"]
-    assert by[of.NOISE] < by[of.OURS]
+def test_the_noise_of_the_recordings_is_another_prior_on_the_same_trajectories(found):
+    orders = found["readings_order_posteriors"].query("dataset == 'fitted' and true_order == 3")
+    by = {name: part.set_index("order") for name, part in orders.groupby("reading")}
+    assert by[of.NOISE]["n"].equals(by[of.OURS]["n"])
+    assert not by[of.NOISE]["mean_probability"].equals(by[of.OURS]["mean_probability"])
 
 
 def test_laws_without_our_rule_may_fit_worse(found):

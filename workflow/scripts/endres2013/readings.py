@@ -1,6 +1,6 @@
 from signkin.job import job
 
-with job(snakemake):
+with job(snakemake, analysis=True):
     from pathlib import Path
 
     from signkin import tables

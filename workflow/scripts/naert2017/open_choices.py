@@ -15,13 +15,11 @@ with job(snakemake, analysis=True):
     given = [
         tables.read_table(source[name], name) for name in ("intervals", "transitions", "excluded")
     ]
-
-    def recordings():
-        return chain.from_iterable(read_recordings(path) for path in source.recordings)
-
-    table = claim_choices(corpus, recordings(), *given, params.settings, params.seed)
+    # Read twice: a corpus is more than memory should hold.
+    first, again = (chain.from_iterable(map(read_recordings, source.recordings)) for _ in range(2))
+    table = claim_choices(corpus, first, *given, params.settings, params.seed)
     tables.write_table(table, out.claim_choices, "claim_choices", corpus.unit)
-    takes = takes_of(corpus, recordings(), *given, params.settings)
+    takes = takes_of(corpus, again, *given, params.settings)
     draws = params.settings.refinement.draws
     table = interval_chance(corpus.name, takes, draws, params.seed)
     tables.write_table(table, out.interval_chance, "interval_chance")

@@ -7,6 +7,7 @@ with job(snakemake):
     from signkin.audit.paper import read_paper
     from signkin.figures.style import paper_style, save
     from signkin.pages.curves import draw_curves
+    from signkin.pages.readings import draw_readings
 
     folder = Path(snakemake.output.folder)
     folder.mkdir(parents=True)
@@ -19,3 +20,6 @@ with job(snakemake):
                 folder / f"{curve.name}.csv", index=False, float_format="%.9g", lineterminator="\n"
             )
             tables.write_table(curve.levels, folder / f"{curve.name}_levels.csv", "specifications")
+        for one in draw_readings(papers, snakemake.params.corpora, files, folder.parents[1]):
+            save(one.figure, folder / f"{one.name}.svg", folder / f"{one.name}.pdf")
+            one.points.to_csv(folder / f"{one.name}.csv", index=False, lineterminator="\n")

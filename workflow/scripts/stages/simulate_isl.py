@@ -9,7 +9,9 @@ with job(snakemake):
     from signkin.simulate import isl
 
     corpus = load_corpus(Path(snakemake.params.corpus))
-    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, snakemake.params.seed)
+    params = snakemake.params
+    recipe = isl.Recipe(**dict(params.recipe))
+    takes = isl.simulate(corpus.entries, corpus.name, corpus.noise_sd, params.seed, recipe)
     folder = Path(snakemake.output.strokes).parent
     for entry, take in zip(corpus.entries, takes, strict=True):
         write_wide_csv(folder / entry.motion, isl.motion_columns(take), corpus.noise_sd)

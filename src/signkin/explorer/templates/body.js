@@ -116,7 +116,7 @@ function drawPosture(canvas, positions, { trail = null, label: name = "" } = {})
   ctx.fillStyle = css("--soft");
   ctx.font = `${12 * px}px system-ui, sans-serif`;
   const told = [name, ...unseen.map((hand) => `${hand} wrist: gap`)].filter(Boolean).join(" · ");
-  if (told) ctx.fillText(told, 8 * px, 18 * px);
+  if (told) ctx.fillText(told, 8 * px, height - 8 * px);
 }
 
 function drawHead(ctx, positions, at, known, size) {

@@ -3,7 +3,7 @@ const ORDER_DASHES = [[], [7, 3], [2, 2], [8, 3, 2, 3], [12, 3], [1, 3], [5, 5],
 
 function drawDensities(host, chips) {
   if (DENSITIES.length) drawOrders(host, chips);
-  else if (DATA.boundaries.length) drawStems(host);
+  else if (STEMS.length) drawStems(host);
 }
 
 function drawOrders(host, chips) {
@@ -43,19 +43,26 @@ function drawOrders(host, chips) {
 }
 
 function drawStems(host) {
-  const orders = [...new Set(DATA.boundaries.map((one) => one.order))].join(", ");
+  const orders = [...new Set(STEMS.map((one) => one.order))].join(", ");
   panel(host, {
     name: "Boundaries by binning, with their posterior", height: 90,
     data: [[0, LAST], [null, null]], series: [{ points: { show: false } }],
     top: 1.1, unit: `boundaries by binning (order ${orders}), posterior`,
     marks: (u, ctx, to) => {
-      for (const one of DATA.boundaries) {
+      for (const one of STEMS) {
         const shift = (one.hand === "left" ? 1 : -1) * to.px;
         ctx.strokeStyle = ctx.fillStyle = css(`--${one.hand}`);
         ctx.lineWidth = 1.6 * to.px;
+        ctx.globalAlpha = crowded(one.times, to) ? 0.5 : 1;
+        ctx.beginPath();
+        each(one.times, to, (x, i) => {
+          ctx.moveTo(x + shift, to.y(0));
+          ctx.lineTo(x + shift, to.y(one.values[i]));
+        });
+        ctx.stroke();
+        if (crowded(one.times, to)) continue;
         each(one.times, to, (x, i) => {
           const y = to.y(one.values[i]);
-          line(ctx, x + shift, to.y(0), y);
           if (one.hand === "left") ctx.fillRect(x + shift - 2 * to.px, y - 2 * to.px, 4 * to.px, 4 * to.px);
           else disc(ctx, x + shift, y, 2.4 * to.px);
         });

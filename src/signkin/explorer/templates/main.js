@@ -126,6 +126,7 @@ function listen() {
 }
 
 function redraw() {
+  strip = null;
   drawPlots();
   changed("view");
   changed("time");

@@ -1,20 +1,13 @@
 // The whole recording as a strip: its speed, what is to be looked at, and the window, to drag.
-let strip = null; // greatest speed of either hand, a column of the strip
+let strip = null; // its picture without the window, drawn once for a size and a scheme
 
 function drawOverview() {
   const canvas = $("overview");
   const { ctx, width, height } = fitted(canvas);
-  if (!strip || strip.length !== width) strip = profile(width);
+  if (!strip || strip.width !== width || strip.height !== height) strip = picture(width, height);
   ctx.clearRect(0, 0, width, height);
-  ctx.fillStyle = css("--profile");
-  const top = Math.max(1e-9, ...strip);
-  for (let x = 0; x < width; x++) {
-    const tall = (strip[x] / top) * (height - 4);
-    ctx.fillRect(x, height - tall, 1, tall);
-  }
+  ctx.drawImage(strip, 0, 0);
   const at = (time) => (time / LAST) * width;
-  ctx.fillStyle = css("--flag");
-  for (const flag of FLAGS) ctx.fillRect(at(flag.time), 0, 2, 6);
   const a = at(state.from), b = Math.max(a + 3, at(state.to));
   ctx.fillStyle = css("--veil");
   ctx.fillRect(0, 0, a, height);
@@ -24,6 +17,22 @@ function drawOverview() {
   ctx.strokeRect(a + 1, 1, Math.max(2, b - a - 2), height - 2);
   ctx.fillStyle = css("--head");
   ctx.fillRect(at(state.time) - 1, 0, 2, height);
+}
+
+// Greatest speed of either hand, a column a pixel, and the flags.
+function picture(width, height) {
+  const made = new OffscreenCanvas(width, height);
+  const ctx = made.getContext("2d");
+  const speeds = profile(width);
+  const top = Math.max(1e-9, ...speeds);
+  ctx.fillStyle = css("--profile");
+  for (let x = 0; x < width; x++) {
+    const tall = (speeds[x] / top) * (height - 4);
+    ctx.fillRect(x, height - tall, 1, tall);
+  }
+  ctx.fillStyle = css("--flag");
+  for (const flag of FLAGS) ctx.fillRect((flag.time / LAST) * width, 0, 2, 6);
+  return made;
 }
 
 function profile(width) {

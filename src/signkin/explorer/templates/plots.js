@@ -19,7 +19,7 @@ function panel(host, { name, height, data, series = [], top = 1, unit = "", mark
     scales: { x: { time: false, min: state.from, max: state.to, range: (u, a, b) => [a, b] },
               y: { range: [0, top] } },
     axes: [
-      { ...axis, show: !!last, size: last ? 30 : 0, values: (u, ticks) => ticks.map(tickText) },
+      { ...axis, show: !!last, size: last ? 30 : 0, incrs: STEPS_S, space: 60, values: (u, ticks) => ticks.map(tickText) },
       { ...axis, show: true, size: axisWidth, values: (u, v) => (series.length ? v : v.map(() => "")),
         grid: series.length ? axis.grid : { show: false },
         ticks: series.length ? axis.ticks : { show: false } },
@@ -39,6 +39,9 @@ function panel(host, { name, height, data, series = [], top = 1, unit = "", mark
   panels.push(plot);
   return plot;
 }
+
+// Between ticks, in s: parts of a second, then of a minute, then of an hour.
+const STEPS_S = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1200, 3600];
 
 const tickText = (value) => {
   if (LAST < 120) return String(+value.toFixed(3));
@@ -90,34 +93,45 @@ function shadeGaps(ctx, to, hand) {
   }
 }
 
+// Whether marks stand so close in the window that lines would fill it: then they are ticks.
+const crowded = (times, to) =>
+  placeOf(times, state.to) - placeOf(times, state.from) > to.width / (8 * to.px);
+
+// Upright lines at times, in one stroke: hundreds of strokes would make moving along jerky.
+function lines(ctx, times, to, top, foot) {
+  ctx.beginPath();
+  each(times, to, (x) => { ctx.moveTo(x, top); ctx.lineTo(x, foot); });
+  ctx.stroke();
+}
+
 function speedMarks(hand) {
   const refinedTimes = REFINED[hand].map((tag) => tag.time);
   return (u, ctx, to) => {
+    const foot = to.top + to.height;
+    const tick = 8 * to.px;
     ctx.lineWidth = to.px;
     ctx.strokeStyle = css("--tag");
-    ctx.setLineDash([4 * to.px, 3 * to.px]);
-    each(TAGS, to, (x) => line(ctx, x, to.top, to.top + to.height));
+    const full = !crowded(TAGS, to);
+    if (full) ctx.setLineDash([4 * to.px, 3 * to.px]);
+    lines(ctx, TAGS, to, full ? to.top : foot - tick, foot);
     ctx.setLineDash([]);
     shadeGaps(ctx, to, hand);
     ctx.fillStyle = css("--ink");
+    const radius = (crowded(MINIMA[hand], to) ? 1.2 : 2.4) * to.px;
     each(MINIMA[hand], to, (x, i) => {
       const y = to.y(speedAt(hand, MINIMA[hand][i]));
-      if (Number.isFinite(y)) disc(ctx, x, y, 2.4 * to.px);
+      if (!Number.isFinite(y)) return;
+      if (radius < 2 * to.px) ctx.fillRect(x - radius, y - radius, 2 * radius, 2 * radius);
+      else disc(ctx, x, y, radius);
     });
     ctx.strokeStyle = ctx.fillStyle = css(`--${hand}`);
     ctx.lineWidth = 1.5 * to.px;
+    if (crowded(refinedTimes, to)) { lines(ctx, refinedTimes, to, to.top, to.top + tick); return; }
+    lines(ctx, refinedTimes, to, to.top + tick, foot);
     each(refinedTimes, to, (x, i) => {
-      line(ctx, x, to.top + 8 * to.px, to.top + to.height);
-      triangle(ctx, x, to.top, 5 * to.px, REFINED[hand][i].status === "moved");
+      triangle(ctx, x, to.top, 5 * to.px, REFINED[hand][i].status === "m");
     });
   };
-}
-
-function line(ctx, x, from, to) {
-  ctx.beginPath();
-  ctx.moveTo(x, from);
-  ctx.lineTo(x, to);
-  ctx.stroke();
 }
 
 function disc(ctx, x, y, radius) {

@@ -30,7 +30,8 @@ const SIGNS = (DATA.lanes.find((lane) => lane.role === "sign") || { tags: [] }).
   .map(([start, end, text]) => ({ start: start / 1000, end: end / 1000, text: label(text) }));
 const TAGS = [...new Set(SIGNS.flatMap((sign) => [sign.start, sign.end]))].sort((a, b) => a - b);
 const FLAGS = DATA.flags.map((flag) => ({ time: flag.at / 1000, why: flag.why }));
-const TRANSITIONS = DATA.transitions.map((one) => ({
+const TRANSITIONS = DATA.transitions.rows.map((values) => Object.fromEntries(
+  DATA.transitions.fields.map((field, i) => [field, values[i]]))).map((one) => ({
   ...one,
   from: label(one.labels[0]), to: label(one.labels[1]),
   start: one.manual[0] / 1000, end: one.manual[1] / 1000,
@@ -54,6 +55,11 @@ function refinedSigns(hand) {
   }
   return [...found.values()].filter((one) => one.end > one.start).sort((a, b) => a.start - b.start);
 }
+
+// Boundaries by binning: a hand, their times and posteriors.
+const STEMS = DATA.boundaries.map((one) => ({
+  hand: one.hand, order: one.order, times: summed(one.times), values: one.values.map((p) => p / 100),
+}));
 
 // The intervals of a sorted list that a time lies in.
 const within = (list, time) => list.filter((one) => one.start <= time && time < one.end);

@@ -200,6 +200,12 @@ for (const box of document.querySelectorAll(".scroll[data-most]")) tables.push(n
 for (const point of document.querySelectorAll("svg.plot [data-recording]")) {
   point.addEventListener("click", () => choose("recording", point.dataset.recording));
 }
+addEventListener("beforeprint", () => {
+  for (const folded of document.querySelectorAll("main details")) folded.open = true;
+});
 document.addEventListener("keydown", event => { if (event.key === "Escape") choose("", ""); });
+if (matchMedia("(max-width: 900px)").matches) {
+  document.querySelector("nav .contents").open = false;
+}
 document.documentElement.classList.add("ready");
 })();

@@ -16,8 +16,9 @@ const told = () => {
   bar.querySelector(".many").textContent = many === 1 ? "1 rating" : `${many} ratings`;
   bar.querySelector(".save").disabled = !many;
 };
-const keep = (name, rating, note) => {
-  if (rating || note) kept[name] = { rating, note }; else delete kept[name];
+const keep = (name, rating, note, had) => {
+  // One that a run has read already is taken back by an empty one.
+  if (rating || note || had) kept[name] = { rating, note }; else delete kept[name];
   try { localStorage.setItem(store, JSON.stringify(kept)); } catch { /* only this page's, then */ }
   for (const one of shown) {
     if (one.name === name) { one.select.value = rating; one.input.value = note; }
@@ -43,10 +44,11 @@ window.rate = (td, keys) => {
   td.append(select, input);
   const one = { name, select, input };
   shown.push(one);
-  const now = kept[name] || { rating: "", note: "" };
+  const had = Boolean(keys.rated || keys.noted);
+  const now = kept[name] || { rating: keys.rated || "", note: keys.noted || "" };
   select.value = now.rating;
   input.value = now.note;
-  const changed = () => keep(name, select.value, input.value.trim());
+  const changed = () => keep(name, select.value, input.value.trim(), had);
   select.addEventListener("change", changed);
   input.addEventListener("change", changed);
 };

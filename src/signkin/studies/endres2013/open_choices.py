@@ -1,12 +1,13 @@
 """What the paper does not print, varied: the prior and the number of bins.
 
 Every combination of degrees of freedom, noise and scale, concentration, time unit
-and bins in config.yaml, on some recordings of a corpus.
+and bins in config.yaml, on some recordings of a corpus. The data's variances as V
+itself (`literal`) come with degrees of freedom and units of length of their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
@@ -22,7 +23,7 @@ from signkin.errors import SignkinError
 from signkin.io.store import read_recordings
 from signkin.recording import Recording
 from signkin.seeds import stream
-from signkin.settings.sections import Prior
+from signkin.settings.sections import EndresChoices, Prior
 from signkin.studies.endres2013.posteriors import (
     FITTED_MAP,
     Data,
@@ -30,6 +31,7 @@ from signkin.studies.endres2013.posteriors import (
     Study,
     chosen,
     rows_of,
+    scale_id,
 )
 from signkin.studies.endres2013.settings import ChoiceSettings, FitSettings
 from signkin.studies.endres2013.single_signs import (
@@ -74,32 +76,38 @@ def order_choices(
     for bins in grid.bins:
         cut = single_signs(corpus, recordings, replace(settings.cut, bins=bins), seed).trajectories
         line = _chance(corpus, cut, settings.fit.hit_window_s, bins, seed)
-        for dof, noise, concentration, unit in product(
-            grid.dof, grid.noise, grid.concentration, grid.time_unit
-        ):
-            source, scale = noise.split()
-            prior = Prior.model_validate(
-                {
-                    "noise": source,
-                    "scale": scale,
-                    "dof": dof,
-                    "concentration": concentration,
-                    "time_unit": unit,
-                }
-            )
+        for prior in priors(grid, corpus.unit):
             told = {
                 "corpus": corpus.name,
-                "dof": "L" if dof is None else f"{dof:g}",
-                "noise": noise,
-                "concentration": concentration,
-                "time_unit": unit,
+                "dof": "L" if prior.dof is None else f"{prior.dof:g}",
+                "noise": f"{prior.noise} {scale_id(prior)}",
+                "concentration": prior.concentration,
+                "time_unit": prior.time_unit,
                 "bins": bins,
-                "printed": _yes(source == "data" and _printed(concentration, bins)),
+                "printed": _yes(prior.noise == "data" and _printed(prior.concentration, bins)),
                 "default": _yes(prior == settings.fit.prior and bins == settings.cut.bins),
             }
             fit = replace(settings.fit, prior=prior, orders=grid.orders)
             rows.append({**told, **_outcomes(corpus, cut, line, fit, workers)})
     return pd.DataFrame(rows, columns=tables.TABLES["order_choices"].names(corpus.unit))
+
+
+def priors(grid: EndresChoices, unit: str) -> Iterator[Prior]:
+    """Yield the priors of the grid; those in a unit of length for positions in metres alone."""
+    readings: list[tuple[float | None, dict[str, Any]]] = [
+        (dof, dict(zip(("noise", "scale"), noise.split(), strict=True)))
+        for dof, noise in product(grid.dof, grid.noise)
+    ]
+    if unit == "m":
+        readings += [
+            (dof, {"noise": "data", "scale": "literal", "length_unit": length})
+            for dof, length in product(grid.literal_dof, grid.literal_unit)
+        ]
+    for (dof, reading), concentration, time in product(
+        readings, grid.concentration, grid.time_unit
+    ):
+        told = {**reading, "dof": dof, "concentration": concentration, "time_unit": time}
+        yield Prior.model_validate(told)
 
 
 def _yes(value: bool) -> str:

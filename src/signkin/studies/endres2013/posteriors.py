@@ -9,7 +9,7 @@ is exactly piecewise polynomial, from the most probable segmentation.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +31,16 @@ from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED, Trajecto
 
 Floats = NDArray[np.float64]
 
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 FITTED, FITTED_MAP = "fitted", "fitted_map"
 
 
-def prior_of(settings: PriorSettings, noise_sd: float, x: Floats) -> Prior:
+def prior_of(settings: PriorSettings, noise_sd: float, x: Floats, unit: str = "m") -> Prior:
     """Return the prior that config.yaml describes, for one trajectory (section 3.2).
 
-    noise_sd: of the corpus's sensor. x: (T, L). `noise: data` is the
-    printed reading: the data's own variances, one a dimension.
+    noise_sd: of the corpus's sensor. x: (T, L). unit: the corpus's unit, of both. `noise: data` is
+    the printed reading: the data's own variances, one a dimension. Raises SignkinError for a
+    prior in mm, cm or m where positions are no lengths.
     """
     noise: float | tuple[float, ...] = noise_sd
     if settings.noise == "data":
@@ -49,14 +51,34 @@ def prior_of(settings: PriorSettings, noise_sd: float, x: Floats) -> Prior:
         concentration=settings.concentration,
         time_unit=settings.time_unit,
         scale=settings.scale,
+        length_unit=_length_unit(settings, unit),
     )
+
+
+def _length_unit(settings: PriorSettings, unit: str) -> float | None:
+    if settings.length_unit is None:
+        return None
+    if unit != "m":
+        raise SignkinError(
+            f"a prior in {settings.length_unit}, and positions are in {unit}",
+            place="key binning.prior.length_unit",
+            expected="a corpus in metres, or a scale without a unit of length",
+        )
+    return METRES[settings.length_unit]
 
 
 def prior_id(settings: PriorSettings, noise_share: float = 1.0) -> str:
     """Return a name for the prior: `dof3 sensor expected b0.1 bin`."""
     noise = settings.noise if noise_share == 1.0 else f"{noise_share:g}x{settings.noise}"
     dof = "L" if settings.dof is None else f"{settings.dof:g}"
-    return f"dof{dof} {noise} {settings.scale} b{settings.concentration:g} {settings.time_unit}"
+    b, time = settings.concentration, settings.time_unit
+    return f"dof{dof} {noise} {scale_id(settings)} b{b:g} {time}"
+
+
+def scale_id(settings: PriorSettings) -> str:
+    """Return the reading of V, with its unit of length where it has one: `literal mm`."""
+    unit = settings.length_unit
+    return settings.scale if unit is None else f"{settings.scale} {unit}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,15 +167,15 @@ class Study:
                 file=where,
                 expected=f"more than the highest order, {max(self.orders)}",
             )
-        prior = prior_of(self.settings.prior, self.corpus.noise_sd, x)
-        shares = np.asarray(prior.noise_sd) * item.noise_share
-        noise = float(shares) if shares.ndim == 0 else tuple(float(v) for v in shares)
-        return x, replace(prior, noise_sd=noise)
+        prior = prior_of(self.settings.prior, self.corpus.noise_sd, x, self.corpus.unit)
+        return x, prior.with_noise(item.noise_share)
 
     def fitted_data(self, fitted: Fitted, order: int) -> Iterator[Data]:
         """Yield both kinds of trajectory that the fit of an order makes, to be binned as data."""
         posterior, source = fitted.posterior, fitted.data.source
-        share = self.settings.recovery_noise
+        # The data's variances are the fitted trajectory's own: nothing of a sensor's in them.
+        own = self.settings.prior.noise == "data"
+        share = 1.0 if own else self.settings.recovery_noise
         mean = posterior.expected_trajectory(order)
         yield Data(source, FITTED, mean, order, fitted.boundaries_s(order), share)
         ends = posterior.map_segmentation(order)
@@ -186,9 +208,12 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "expected_count": float(posterior.boundary_probability(order).sum()),
             "cut_mass": posterior.cut_mass[i],
             "explained_variance": explained_variance(x, posterior.expected_trajectory(order)),
+            "noise_misfit": posterior.noise_misfit(order),
+            "at_floor": "yes" if posterior.at_floor(order) else "no",
         }
+        doubts = posterior.doubts(order)
         if not known:
-            yield {**row, "note": "boundaries of recorded movements are not known"}
+            yield {**row, "note": _joined("boundaries of recorded movements are not known", doubts)}
             continue
         rate = hit_rate(
             fitted.boundaries_s(order), data.truth_s, settings.hit_window_s,
@@ -203,8 +228,14 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "hit_rate": rate.hit_rate,
             "false_positives_per_s": rate.false_positives_per_s,
             "hpfpps": hpfpps if np.isfinite(hpfpps) else None,
-            "note": rate.note or ("" if np.isfinite(hpfpps) else _why_no_ratio(rate.hits)),
+            "note": _joined(
+                rate.note or ("" if np.isfinite(hpfpps) else _why_no_ratio(rate.hits)), doubts
+            ),
         }
+
+
+def _joined(*notes: str) -> str:
+    return "; ".join(note for note in notes if note)
 
 
 def _why_no_ratio(hits: int) -> str:

@@ -12,9 +12,10 @@ import pandas as pd
 
 from signkin.corpus import Corpus
 from signkin.exhibits import Exhibit, exhibits, of_groups
-from signkin.report.attempts import attempted
+from signkin.report.attempts import CANNOT, attempted
 from signkin.report.exhibit_views import by_exhibit
 from signkin.report.page import FigureView, Section, TableView, View, figure_files
+from signkin.studies.endres2013 import report_beside
 from signkin.tables import read_table
 
 ALL = "all"
@@ -49,6 +50,8 @@ def sections(
     folder = results / "endres2013"
     found: dict[str, list[View]] = {chapter: [] for chapter in CHAPTERS}
     found["model"] += figure_views(folder, of_groups(listing, "scheme"))
+    printed = partial(_printed_and_found, folder, corpora)
+    found["found"] += attempted("Printed, and found here", printed)
     for name, corpus in corpora.items():
         if corpus.single_signs:
             shown = of_groups(listing, "figures")
@@ -86,15 +89,21 @@ def badge(corpus: Corpus) -> str:
 def _single_signs(
     folder: Path, corpus: Corpus, listing: Iterable[Exhibit], hit_window_s: float
 ) -> Iterator[tuple[str, View]]:
-    printed = partial(_printed_and_found, folder)
-    yield from (("found", view) for view in attempted("Printed, and found here", printed))
     for view in figure_views(folder, listing, SIMULATED if corpus.simulator else ""):
         yield _CHAPTER.get(view.svg.stem, "recorded"), view
         if view.svg.stem == "fig06":
             rates, tests = partial(_rates, folder, hit_window_s), partial(_tests, folder)
             yield from (("truth", view) for view in attempted("Hit rates", rates))
             yield from (("truth", view) for view in attempted("Tests of orders", tests))
+        if view.svg.stem == "fig07":
+            learnt = partial(report_beside.learnt, folder)
+            yield from (("recorded", one) for one in attempted("The prior learnt", learnt))
     yield "choices", _figure(folder, "order_choices", "Orders under all choices")
+    priors, doubts = (
+        partial(of, folder) for of in (report_beside.two_priors, report_beside.doubts)
+    )
+    yield from (("choices", one) for one in attempted("Two readings of the prior", priors))
+    yield from (("found", one) for one in attempted("Does the noise fit?", doubts))
     title = "Power laws of recorded movement, and of noise"
     yield "power-laws", _figure(folder, "recorded_laws", title, "law_pitfalls.csv")
     out = partial(left_out, folder / "left_out.csv")
@@ -128,24 +137,33 @@ def _of(table: pd.DataFrame, dataset: str, true_order: int | None = None) -> pd.
     return table[here].set_index("order")
 
 
-def _printed_and_found(folder: Path) -> TableView:
-    orders = read_table(folder / "order_posteriors.csv", "order_posteriors")
-    rates = read_table(folder / "hit_rates.csv", "hit_rates")
-    rows = list(_comparisons(orders, rates))
-    return TableView(
-        label="",
-        title="Printed, and found here",
-        caption="Means over trajectories; order posteriors of the corpus, with the prior of "
-        "config.yaml. The paper's recordings are others.",
-        frame=pd.DataFrame(rows, columns=["what", "where", "printed", "found"]),
-        columns={
-            "what": ("what", ""),
-            "where": ("where", ""),
-            "printed": ("paper", ""),
-            "found": ("here", ""),
-        },
-        file=folder / "order_posteriors.csv",
-    )
+def _printed_and_found(folder: Path, corpora: Mapping[str, Corpus]) -> Iterator[TableView]:
+    frame = pd.DataFrame(columns=["what", "where", "printed"])
+    columns: dict[str, tuple[str, str]] = {
+        "what": ("what", ""), "where": ("where", ""), "printed": ("paper", ""),
+    }  # fmt: skip
+    for name, corpus in corpora.items():
+        if not corpus.single_signs:
+            continue
+        orders = read_table(folder / name / "order_posteriors.csv", "order_posteriors")
+        rates = read_table(folder / name / "hit_rates.csv", "hit_rates")
+        try:
+            rows = list(_comparisons(orders, rates))
+        except CANNOT:  # not available, as the page of the corpus tells
+            rows = []
+        own = pd.DataFrame(rows, columns=["what", "where", "printed", name])
+        frame = frame.merge(own, how="outer", on=["what", "where", "printed"], sort=False)
+        columns[name] = (f"{name} ({badge(corpus)})", "")
+    if len(columns) > 3:
+        yield TableView(
+            label="",
+            title="Printed, and found here",
+            caption="Means over trajectories; order posteriors of each corpus, with the prior of "
+            "config.yaml. The paper's recordings are others. Simulated: a test of the method, no "
+            "evidence about people.",
+            frame=frame,
+            columns=columns,
+        )
 
 
 def _comparisons(orders: pd.DataFrame, rates: pd.DataFrame) -> Iterator[tuple[str, str, str, str]]:

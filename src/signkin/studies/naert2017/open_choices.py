@@ -84,12 +84,13 @@ class Gathered:
         """Return the share of such tags with a minimum near; NaN without any."""
         return self.near[kind] / self.tags[kind] if self.tags[kind] else np.nan
 
-    def chance_high(self, null: str, kind: str) -> float:
-        """Return the share that 97.5 % of sets of random tags stay within."""
+    def chance_interval(self, null: str, kind: str) -> tuple[float, float]:
+        """Return the shares that 95 % of sets of random tags lie between."""
         if not self.tags[kind]:
-            return np.nan
+            return np.nan, np.nan
         hits = self.chance[null, kind] / self.tags[kind]
-        return float(np.quantile(hits, 0.975, method="nearest"))
+        low, high = np.quantile(hits, [0.025, 0.975], method="nearest")
+        return float(low), float(high)
 
     def add_transitions(self, take: Take, refined: Floats, joints: list[int]) -> None:
         """Add the transitions of a recording between refined tags (N, 2), for one arm's joints."""
@@ -326,13 +327,13 @@ def _refined_rows(
     moved = found.moved / found.tags[ALL]
     for null in map(str, nulls.Null):
         where, how = {**about, "null": null}, f"bound: 97.5 % of sets of random tags, {null}"
-        share, bound = found.share(TRANSITION), found.chance_high(null, TRANSITION)
-        yield {**where, "claim": "N19", "estimate": share, "bound": bound, "holds": share > bound,
+        share, (low, bound) = found.share(TRANSITION), found.chance_interval(null, TRANSITION)
+        yield {**where, "claim": "N19", "estimate": share, "low": low, "bound": bound,
                "statistic": "share of transitions' tags with a minimum in the window",
-               "n": found.tags[TRANSITION], "note": how}  # fmt: skip
-        share, bound = found.share(ALL), found.chance_high(null, ALL)
+               "holds": share > bound, "n": found.tags[TRANSITION], "note": how}  # fmt: skip
+        share, (low, bound) = found.share(ALL), found.chance_interval(null, ALL)
         yield {**where, "claim": "N20", "statistic": "share of tags with a minimum in the window",
-               "estimate": share, "bound": max(bound, MAJORITY),
+               "estimate": share, "low": low, "bound": max(bound, MAJORITY),
                "holds": moved > MAJORITY and share > bound, "n": found.tags[ALL],
                "note": f"{moved:.3f} moved; {how}, or the majority"}  # fmt: skip
     change = float(np.median(np.concatenate(found.changes))) if len(durations) else np.nan

@@ -62,7 +62,7 @@ def long_series(
         fits = fit_many(
             [x for _, _, x, _, _ in some],
             [order],
-            [prior_of(settings.prior, corpus.noise_sd, x) for _, _, x, _, _ in some],
+            [prior_of(settings.prior, corpus.noise_sd, x, corpus.unit) for _, _, x, _, _ in some],
             [bin_s for _, _, _, bin_s, _ in some],
             workers=workers,
             names=[f"recording {name}, {hand} wrist" for name, hand, _, _, _ in some],
@@ -119,9 +119,9 @@ def _take(
             "boundaries_per_s": found / (len(x) * bin_s),
             "cut_mass": posterior.cut_mass[0],
             "explained_variance": explained_variance(x, posterior.expected_trajectory(order)),
-            "note": ""
-            if found == posterior.map_count(order)
-            else f"only {found} local maxima of the boundary posterior",
+            "noise_misfit": posterior.noise_misfit(order),
+            "at_floor": "yes" if posterior.at_floor(order) else "no",
+            "note": _note(posterior, order, found),
         }
     )
     for end, time in zip(ends, posterior.times_s(ends), strict=True):
@@ -129,3 +129,9 @@ def _take(
         out.boundaries.append(
             {**start, "boundary_s": time, "probability": min(1.0, float(near.sum()))}
         )
+
+
+def _note(posterior: Posterior, order: int, found: int) -> str:
+    few = found < posterior.map_count(order)
+    told = f"only {found} local maxima of the boundary posterior" if few else ""
+    return "; ".join(note for note in (told, posterior.doubts(order)) if note)

@@ -80,7 +80,10 @@ def _wrists(folder: Path) -> TableView:
     return TableView(
         label="",
         title="Wrists as long series",
-        caption="Cut mass bounds the share of P(M | data) outside of the counts worked out.",
+        caption="Cut mass bounds the share of P(M | data) outside of the counts worked out. "
+        "Misfit: how far the wrist lies off the expected path, in SDs of the noise that the prior "
+        "expects; the note tells where it is too far, and where the longest segment makes the "
+        "boundaries.",
         frame=read_table(path, "wrist_posteriors"),
         columns={
             "recording": ("recording", ""),
@@ -92,6 +95,8 @@ def _wrists(folder: Path) -> TableView:
             "boundaries_per_s": ("a second", ".2f"),
             "explained_variance": ("explained variance", ".4f"),
             "cut_mass": ("cut mass", ".1g"),
+            "noise_misfit": ("misfit (SDs)", ".2f"),
+            "note": ("note", ""),
         },
         file=path,
         most=8,

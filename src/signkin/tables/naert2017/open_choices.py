@@ -28,6 +28,7 @@ TABLES = (
             text("statistic", "what the estimate is"),
             Column("estimate", "see statistic", "the number the claim is about"),
             Column("bound", "see statistic", "what it is set against"),
+            Column("low", "see statistic", "below it the claim fails; empty where all else does"),
             Column("holds", "", "whether the claim holds so"),
             Column("n", "", "transitions or tags"),
             NOTE,

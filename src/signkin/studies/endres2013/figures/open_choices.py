@@ -33,8 +33,10 @@ def draw(frame: pd.DataFrame) -> Figure:
     points = frame.copy()
     points["group"] = points["noise"].str.replace(" ", "\n") + "\n" + points["time_unit"]
     groups = list(dict.fromkeys(points["group"]))
+    # Twelve columns fit the usual width; readings in a unit of length are more.
+    wide = max(1.0, len(groups) / 12)
     figure, axes = plt.subplots(
-        len(OUTCOMES), 1, figsize=(WIDTH_IN * 1.25, 1.15 * len(OUTCOMES) + 1.2), sharex=True
+        len(OUTCOMES), 1, figsize=(WIDTH_IN * 1.25 * wide, 1.15 * len(OUTCOMES) + 1.2), sharex=True
     )
     for ax, (column, (label, paper)) in zip(axes, OUTCOMES.items(), strict=True):
         drawing.plot_settings(
@@ -46,7 +48,7 @@ def draw(frame: pd.DataFrame) -> Figure:
             ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
             ax.set_ylim(-1.5, 160)
         ax.set_ylabel(label, fontsize=7.5)
-        ax.tick_params(axis="x", labelsize=7)
+        ax.tick_params(axis="x", labelsize=7 if wide == 1 else 6)
     figure.legend(
         handles=drawing.handles(
             points, "dof", "concentration", {"dof": "dof", "concentration": "b"}

@@ -40,7 +40,7 @@ class Shown:
     """Two signs and what the models and methods make between them.
 
     durations: model -> s; told: what the models learnt from. ends: the postures joined, (2, J, 3).
-    paths: method -> wrists (n + 1, 2, 3) with the duration of `model`. curves: method -> model ->
+    paths: method -> wrists (n + 1, H, 3) with the duration of `model`. curves: method -> model ->
     speed of the wrist of `hand`.
     """
 
@@ -143,7 +143,7 @@ def _draw_postures(ax: Axes, shown: Shown, unit: str) -> None:
             posture, joints, ax=ax, colour=colour, width=1.6, label=name, unit=unit
         )
     for method, path in shown.paths.items():
-        for w in range(2):
+        for w in range(path.shape[1]):
             ax.plot(
                 -path[:, w, 0], path[:, w, 2], color=skeletons.METHOD_COLOURS[method], lw=1.1,
                 ls=":" if method == INTERPOLATION else "-",

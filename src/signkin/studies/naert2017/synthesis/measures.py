@@ -49,7 +49,7 @@ def measures(
     # The third difference of frames k to k + 3 belongs between k + 1 and k + 2.
     inside = jerk[max(0, start - 1) : max(start, end - 1)]
     count = 0
-    for hand in range(2):
+    for hand in range(speed.shape[1]):
         times = minima_with_depth(speed[:, hand], rate, depth, settings.minima.spacing_s)[0]
         frames = np.rint(times * rate)
         count += int(((frames > start) & (frames < end)).sum())

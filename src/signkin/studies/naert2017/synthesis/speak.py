@@ -37,9 +37,14 @@ def name_of(glosses: Sequence[str]) -> str:
     return plain[:LONGEST_NAME]
 
 
-def prerequisites(corpus: str, changes: Mapping[str, str], root: Path) -> list[str]:
+CONFIG = Path("config.yaml")
+
+
+def prerequisites(
+    corpus: str, changes: Mapping[str, str], root: Path, config: Path = CONFIG
+) -> list[str]:
     """Return the files of the workflow that an utterance wants."""
-    plan = _plan(corpus, changes, root)
+    plan = _plan(corpus, changes, root, config)
     files = [f"results/{corpus}/recordings/{shard}.parquet" for shard in plan.shards(corpus)]
     return [*files, f"results/{corpus}/intervals.csv", f"results/{corpus}/excluded.csv"]
 
@@ -50,11 +55,12 @@ def speak(
     name: str | None,
     changes: Mapping[str, str],
     root: Path,
+    config: Path = CONFIG,
 ) -> list[str]:
     """Make and write an utterance in results/naert2017/<corpus>/synthesis; returns what to tell."""
-    plan = _plan(corpus, changes, root)
+    plan = _plan(corpus, changes, root, config)
     settings = SynthesisSettings.of(plan.settings)
-    files = prerequisites(corpus, changes, root)
+    files = prerequisites(corpus, changes, root, config)
     base, _ = load_database(plan.corpora[corpus], files[:-2], files[-2], files[-1], settings)
     name = name or name_of(glosses)
     out = RESULTS / "naert2017" / corpus / "synthesis"
@@ -80,10 +86,15 @@ def speak(
     return told
 
 
-def _plan(corpus: str, changes: Mapping[str, str], root: Path) -> Plan:
-    """Return the plan of the folder the command is called in."""
-    path = Path("config.yaml")
+def _plan(corpus: str, changes: Mapping[str, str], root: Path, path: Path) -> Plan:
+    """Return the plan of the folder the command is called in, for one corpus alone.
+
+    path: of its config.yaml. A corpus that is broken does not concern another one's utterance.
+    """
+    if not path.is_file() and path != CONFIG:
+        raise SignkinError("there is no such file", file=path, place="--config")
     config = read_yaml(path if path.is_file() else root / "config.yaml")
+    config["corpora"] = [corpus]
     config["synthesis"] = {**(config.get("synthesis") or {}), **changes}
     plan = make_plan(config, root)
     if corpus not in plan.corpora:
