@@ -14,6 +14,7 @@ import pytest
 from signkin import read_annotation, tables
 from signkin.coarticulation.transitions import utterance_names
 from signkin.exhibits import exhibits
+from signkin.report.attempts import ABSENT
 from signkin.statistics import descriptive
 from signkin.studies.naert2017.transitions import counted
 from support.runs import checked, command, environment, prepare, run, signkin
@@ -120,6 +121,13 @@ def test_what_is_missing_is_said(simulated_run):
     own = (simulated_run.results / "report/corpora/lsf-sim.html").read_text(encoding="utf-8")
     assert "SIMULATED" in own
     assert not re.search(r">\s*nan\s*<", page, flags=re.IGNORECASE)
+
+
+def test_everything_can_be_made_of_the_simulated_corpora(simulated_run):
+    """What cannot be made stops no run: so a fault of ours would hide where nobody looks."""
+    assert list(simulated_run.results.glob("*/not_available/*.csv")) == []
+    for page in (simulated_run.results / "report").rglob("*.html"):
+        assert ABSENT not in page.read_text(encoding="utf-8"), page
 
 
 def test_every_table_is_as_the_dictionary_says(simulated_run, root):

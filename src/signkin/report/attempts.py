@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable, Iterable
 
 import pandas as pd
@@ -27,6 +28,8 @@ def attempted(title: str, make: Callable[[], View | Iterable[View]]) -> list[Vie
             return [made]
         for view in made:
             out.append(view)
-    except CANNOT:
+    except CANNOT as error:
+        if not isinstance(error, SignkinError):
+            traceback.print_exc()  # into the job's log: it may be our own mistake
         out.append(TableView("", title, ABSENT, pd.DataFrame(), {}))
     return out
