@@ -129,7 +129,7 @@ def test_addresses_that_lead_nowhere_are_told(corpus, server, tmp_path):
     with pytest.raises(SignkinError, match=r"the server answers 404"):
         fetch(corpus(server.address.replace("m.bin", "gone")), tmp_path / "data")
     server.server_close()
-    with pytest.raises(SignkinError, match=r"0 bytes came, then: URLError"):
+    with pytest.raises(SignkinError, match=r"0 bytes came, then: \w+"):
         fetch(corpus(), tmp_path / "data")
 
 

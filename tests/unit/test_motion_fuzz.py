@@ -85,6 +85,8 @@ def test_damaged_files_end_in_a_recording_or_a_sentence(tmp_path, name):
     whole = victim.read_bytes()
     rng = random.Random(f"signkin {name}")
     outcome = {"read": 0, "refused": 0}
+    # The peak of the process: another test may have had it already, and then it may not grow.
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
     before = signal.signal(signal.SIGALRM, _stop)
     try:
         for number in range(TRIES):
@@ -111,7 +113,8 @@ def test_damaged_files_end_in_a_recording_or_a_sentence(tmp_path, name):
         signal.signal(signal.SIGALRM, before)
     # Both happen, or the damage is none or total, and the test tells nothing.
     assert outcome["refused"] > TRIES // 10 and outcome["read"] > TRIES // 100, outcome
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 < MOST_BYTES
+    most = max(peak, MOST_BYTES)
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 <= most
 
 
 def _look_at(recording: Recording) -> None:
