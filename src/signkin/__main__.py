@@ -151,7 +151,8 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
             print(f"signkin: another run is at work in {folder}. Wait for it.", file=sys.stderr)
             return 1
         for path in take_out_changed(folder / STATE, folder):
-            print(f"signkin: {path} is not what its job wrote; it is made anew.", file=sys.stderr)
+            print(f"signkin: {path} is not what its job wrote; it is deleted, and made anew where "
+                  "it is wanted.", file=sys.stderr)  # fmt: skip
         forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]

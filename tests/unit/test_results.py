@@ -107,6 +107,7 @@ def test_a_changed_output_is_found_and_taken_out(tmp_path, monkeypatch):
     assert [path.name for path in take_out_changed()] == ["one.csv"]
     assert not (folder / "one.csv").exists()
     assert take_out_changed() == []
+    assert [d.what for d in differences(folder.parent.relative_to(tmp_path))] == ["not of a job"]
 
 
 def test_a_later_job_counts_and_a_damaged_record_is_forgotten(tmp_path, monkeypatch):

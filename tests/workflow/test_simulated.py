@@ -184,18 +184,18 @@ def files_of(folder):
 
 def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
     results = own_copy.results
-    cut, flipped = results / "lsf-sim/shards/0001/intervals.csv", results / "lsf-sim/recordings"
-    flipped = next(flipped.glob("*.parquet"))
-    gone = results / "naert2017/lsf-sim/table2.csv"
+    cut, flipped = results / "lsf-sim/shards/0001/intervals.csv", results / "lsf-sim/intervals.csv"
+    gone = results / "lsf-sim/recordings.csv"
     cut.write_text(cut.read_text().splitlines()[0] + "\n")
-    flipped.write_bytes(flipped.read_bytes()[:-200] + b"?" + flipped.read_bytes()[-199:])
+    flipped.write_bytes(flipped.read_bytes()[:-20] + b"?" + flipped.read_bytes()[-19:])
     gone.unlink()
     told = signkin("verify", folder=own_copy.folder)
     assert told.status == 1
     for path, what in ((cut, "changed"), (flipped, "changed"), (gone, "missing")):
         assert f"{path.relative_to(own_copy.folder)}: {what}" in told.text
-    again = checked(run(own_copy.folder, "--", str(gone.relative_to(own_copy.folder))))
-    assert f"{cut.relative_to(own_copy.folder)} is not what its job wrote" in again.text
+    again = checked(run(own_copy.folder, "--", str(flipped.relative_to(own_copy.folder))))
+    for path in (cut, flipped):
+        assert f"{path.relative_to(own_copy.folder)} is not what its job wrote" in again.text
     compared = signkin("compare", str(simulated_run.results), "results", folder=own_copy.folder)
     assert compared.text.startswith("No difference beyond 1e-09"), compared.text
     assert signkin("verify", folder=own_copy.folder).status == 0

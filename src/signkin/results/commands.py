@@ -19,7 +19,7 @@ example:
   signkin compare results /media/reviewer/results --out differences.csv
 """
 VERIFY = """Each job of a run leaves the hashes of its outputs. Exit status 1 where a file is
-changed or missing; the next `signkin run` makes such files anew.
+changed or missing; `signkin run` makes such files anew where they are wanted.
 
 example:
   signkin verify
@@ -87,5 +87,5 @@ def run_verify(told: argparse.Namespace) -> int:
     if not wrong:
         print("All that jobs wrote is as they wrote it.")
     else:
-        print("The next `signkin run` makes these anew.")
+        print("`signkin run` makes these anew where they are wanted.")
     return 1 if wrong else 0

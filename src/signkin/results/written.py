@@ -3,7 +3,7 @@
 Snakemake asks whether an output is there and newer than its inputs, never what is in it: a file
 cut short by a full disk, or with a flipped bit, is used by the next step. Each job therefore
 leaves the hashes of its outputs, and a run starts by comparing: a file that is not what its job
-wrote is deleted, and said, so that it is made anew.
+wrote is deleted, and said, so that no step reads it.
 """
 
 from __future__ import annotations
@@ -34,16 +34,19 @@ def record(outputs: Iterable[str | Path], state: Path = STATE) -> None:
     if not hashes:
         return
     state.mkdir(parents=True, exist_ok=True)
-    # One file a job, replaced in one step: jobs end at the same time, and may be killed.
-    kept = state / _name(min(hashes))
-    unfinished = kept.with_suffix(".part")
-    unfinished.write_text(json.dumps(hashes, sort_keys=True, indent=0), encoding="utf-8")
-    unfinished.replace(kept)
+    _write(state / _name(min(hashes)), hashes)
 
 
 def forget(output: str | Path, state: Path = STATE) -> None:
     """Forget a file that was recorded by itself and is no longer made."""
     (state / _name(Path(output).as_posix())).unlink(missing_ok=True)
+
+
+def _write(kept: Path, hashes: dict[str, str]) -> None:
+    # One file a job, replaced in one step: jobs end at the same time, and may be killed.
+    unfinished = kept.with_suffix(".part")
+    unfinished.write_text(json.dumps(hashes, sort_keys=True, indent=0), encoding="utf-8")
+    unfinished.replace(kept)
 
 
 def _name(path: str) -> str:
@@ -80,15 +83,22 @@ def differences(results: Path, state: Path = STATE) -> Iterator[Difference]:
 
 
 def take_out_changed(state: Path = STATE, root: Path = Path()) -> list[Path]:
-    """Delete files that are not what their job wrote, and return them; the next run makes them.
+    """Delete files that are not what their job wrote, and return them.
 
-    root: the folder of the run, which recorded paths are relative to.
+    root: the folder of the run, which recorded paths are relative to. A run makes them anew where
+    they are wanted: what was made of them before is of the good file. They are forgotten, as are
+    files that are not there.
     """
-    taken = []
-    for path, value in sorted(recorded(state).items()):
-        if (root / path).is_file() and _hash(root / path) != value:
-            (root / path).unlink()
-            taken.append(path)
+    known = recorded(state)
+    there = {path: value for path, value in known.items() if (root / path).is_file()}
+    taken = [path for path, value in sorted(there.items()) if _hash(root / path) != value]
+    for path in taken:
+        (root / path).unlink()
+    gone = {path.as_posix() for path in (known.keys() - there.keys()) | set(taken)}
+    for kept in state.glob("*.json") if gone else ():
+        hashes = json.loads(kept.read_text(encoding="utf-8"))
+        if gone & hashes.keys():
+            _write(kept, {path: value for path, value in hashes.items() if path not in gone})
     return taken
 
 
