@@ -155,7 +155,8 @@ def test_a_mini_corpus_runs_to_its_report(mini):
     assert notes["CAKE"] == ""
     page = (done.results / "report/index.html").read_text(encoding="utf-8")
     assert "real recordings" in page
-    assert "limb and palm frames" in page
+    paper = (done.results / "report/papers/naert2017.html").read_text(encoding="utf-8")
+    assert "limb and palm frames" in paper
     assert "signs.csv has 1 glosses that occur in no recording: CAKES" in page
 
 

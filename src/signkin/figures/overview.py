@@ -19,6 +19,7 @@ STAGE_COLOURS = {
     "kernels": ("#e9f6f8", "#b4e0e6"),
     "endres2013": ("#f5effa", "#dcc4ee"),
     "audit": ("#fbeeef", "#f1bcc1"),
+    "explorer": ("#eff7e6", "#cbe3a8"),
     "report": ("#f2f2f2", "#d5d5d5"),
 }
 OTHER = ("#ffffff", "#eeeeee")
@@ -92,7 +93,7 @@ def plot_overview(rules: pd.DataFrame, *, ax: Axes) -> Axes:
             Patch(fc=STAGE_COLOURS.get(s, OTHER)[1], ec="0.35", label=s)
             for s in dict.fromkeys(rules["stage"])
         ],
-        loc="lower center", ncols=9, bbox_to_anchor=(0.5, 0.0), handlelength=1.2,
+        loc="lower center", ncols=10, bbox_to_anchor=(0.5, 0.0), handlelength=1.2,
         columnspacing=1.2, title="one colour a stage (a file of workflow/rules); in italics: "
         "what a rule takes from other stages", title_fontsize=6.8, fontsize=6.8,
     )  # fmt: skip
