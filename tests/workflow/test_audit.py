@@ -40,16 +40,15 @@ def test_the_open_choices_have_the_pipelines_own_numbers(simulated_run):
     base = simulated_run.results / "naert2017/lsf-sim"
     many = read_table(base / "claim_choices.csv", "claim_choices")
     own = many[(many["cutoff_hz"] == 6) & (many["prominence"] == 0.05) & (many["window_s"] == 0.15)]
-    quality = read_table(base / "refinement.csv", "refinement").set_index(["hand", "measure"])
+    tags = read_table(base / "tag_chance.csv", "tag_chance")
+    shares = tags[(tags["measure"] == "share within the window") & (tags["window_s"] == 0.15)]
+    shares = shares[shares["null"] == "uniform"].set_index(["hand", "tags"])
     pairs = read_table(base / "fig09.csv", "segmentations")
     moves = read_table(base / "transitions.csv", "transitions")
     for hand in ("right", "left"):
         rows = own[own["hand"] == hand].drop_duplicates("claim").set_index("claim")
-        for claim, measure in (
-            ("N19", "tags with a minimum within the window"),
-            ("N20", "tags moved"),
-        ):
-            value = quality.loc[(hand, measure), "value"]
+        for claim, which in (("N19", "transition"), ("N20", "all")):
+            value = shares.loc[(hand, which), "value"]
             assert rows.loc[claim, "estimate"] == pytest.approx(value, abs=1e-8)
         change = (pairs["refined_duration_s"] - pairs["manual_duration_s"])[pairs["hand"] == hand]
         assert rows.loc["N21", "estimate"] == pytest.approx(change.abs().median(), abs=1e-6)
