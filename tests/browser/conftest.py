@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from support.browsing import open_page
 
@@ -14,6 +14,7 @@ ARGUMENTS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
+WAIT_MS = 150_000  # on a machine with a load of 10
 
 
 @pytest.fixture(scope="session")
@@ -23,6 +24,14 @@ def browser() -> Iterator[Browser]:
         pytest.skip("no Chromium on this machine (.ci/chromium installs Debian's)")
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(executable_path=found, args=ARGUMENTS)
+        opened = instance.new_page
+
+        def new_page(**settings: object) -> Page:
+            page = opened(**settings)
+            page.set_default_timeout(WAIT_MS)
+            return page
+
+        instance.new_page = new_page  # every test of the browser has the same patience
         yield instance
         instance.close()
 
