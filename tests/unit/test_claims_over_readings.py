@@ -56,5 +56,5 @@ def test_what_keeps_the_print_is_judged_claim_by_claim(drawn):
 def test_the_words_count_what_the_figure_shows(drawn):
     text = told(drawn[0].points)
     assert text.startswith("isl-sim: of 3 readings hold E02 0, E03 3, E04 3, E05 3, E07 0, E08 0")
-    assert "E10 1; at most 5 of 8 claims hold under one reading (under 1)" in text
+    assert "E10 1, E14 1; at most 6 of 9 claims hold under one reading (under 1)" in text
     assert "isl-kinect: of 3 readings" in text and "(under 3)" in text
