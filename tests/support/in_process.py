@@ -1,14 +1,18 @@
-"""All jobs of a run in this process: Snakemake says which, their scripts run one after the other.
+"""All jobs of a run in one process: Snakemake says which, their scripts run one after the other.
 
 A job costs about 1.5 s of start-up in a run of its own. What is tested with this is what the
-scripts make of input, not how Snakemake runs them.
+scripts make of input, not how Snakemake runs them. The process is not that of the tests: Snakemake
+runs beside no other event loop, and a browser's test leaves one.
+
+    python -m support.in_process FOLDER OUT     (in the folder `tests`)
 """
 
 from __future__ import annotations
 
-import contextlib
+import json
 import os
-from collections.abc import Iterator
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -24,20 +28,6 @@ class Done:
     rule: str
     wildcards: dict[str, str]
     failed: str = ""
-
-
-@contextlib.contextmanager
-def _inside(folder: Path, data: Path) -> Iterator[None]:
-    before, old = Path.cwd(), os.environ.get("SIGNKIN_DATA")
-    os.environ["SIGNKIN_DATA"] = str(data)
-    os.chdir(folder)
-    try:
-        yield
-    finally:
-        os.chdir(before)
-        os.environ.pop("SIGNKIN_DATA")
-        if old is not None:
-            os.environ["SIGNKIN_DATA"] = old
 
 
 def jobs_of(folder: Path) -> list[Any]:
@@ -76,26 +66,42 @@ def jobs_of(folder: Path) -> list[Any]:
 
 def run_in_process(folder: Path, data: Path) -> list[Done]:
     """Run all jobs of a run; the first that ends with an error is the last."""
+    out = folder / "jobs.json"
+    path = os.pathsep.join([str(ROOT / "tests"), str(ROOT / "src")])
+    done = subprocess.run(
+        [sys.executable, "-m", "support.in_process", str(folder), str(out)], cwd=folder,
+        env={**os.environ, "SIGNKIN_DATA": str(data), "PYTHONPATH": path}, text=True, check=False,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-3000:]
+    return [Done(**job) for job in json.loads(out.read_text(encoding="utf-8"))]
+
+
+def _run(folder: Path) -> list[Done]:
     out: list[Done] = []
-    with _inside(folder, data):
-        for job in jobs_of(folder):
-            if job.rule.name == "compile_kernels":
-                continue  # the tests' own process compiles what it calls
-            for file in job.output:
-                Path(file).parent.mkdir(parents=True, exist_ok=True)
-            script = ROOT / "workflow" / "scripts" / str(job.rule.script).split("scripts/")[-1]
-            told = SimpleNamespace(
-                input=job.input, output=job.output, params=job.params, log=job.log,
-                wildcards=job.wildcards, rule=job.rule.name, threads=1,
-            )  # fmt: skip
-            failed = ""
-            try:
-                exec(compile(script.read_text(), str(script), "exec"), {"snakemake": told})
-                missing = [str(file) for file in job.output if not Path(file).exists()]
-                failed = f"not written: {missing}" if missing else ""
-            except SystemExit:
-                failed = Path(job.log[0]).read_text()[-3000:]
-            out.append(Done(job.rule.name, dict(job.wildcards_dict), failed))
-            if failed:
-                break
+    for job in jobs_of(folder):
+        if job.rule.name == "compile_kernels":
+            continue  # the tests' own process compiles what it calls
+        for file in job.output:
+            Path(file).parent.mkdir(parents=True, exist_ok=True)
+        script = ROOT / "workflow" / "scripts" / str(job.rule.script).split("scripts/")[-1]
+        told = SimpleNamespace(
+            input=job.input, output=job.output, params=job.params, log=job.log,
+            wildcards=job.wildcards, rule=job.rule.name, threads=1,
+        )  # fmt: skip
+        failed = ""
+        try:
+            exec(compile(script.read_text(), str(script), "exec"), {"snakemake": told})
+            missing = [str(file) for file in job.output if not Path(file).exists()]
+            failed = f"not written: {missing}" if missing else ""
+        except SystemExit:
+            failed = Path(job.log[0]).read_text()[-3000:]
+        out.append(Done(job.rule.name, dict(job.wildcards_dict), failed))
+        if failed:
+            break
     return out
+
+
+if __name__ == "__main__":
+    finished = _run(Path(sys.argv[1]))
+    Path(sys.argv[2]).write_text(json.dumps([vars(job) for job in finished]), encoding="utf-8")
