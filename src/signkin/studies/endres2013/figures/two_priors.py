@@ -15,12 +15,12 @@ from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED
 from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside
 
 TITLES = {
-    "3B": "3B  order posterior of refound order 3 (paper: 3)",
-    "3C": "3C  hit rates of refound order 3",
-    "6": "6  order posterior of ground truth (paper: 3)",
-    "7": "7  order posterior, recorded (paper: 4)",
-    "5": "5  hit rates on ground truth, pooled",
-    "ratio": "6  eq. 17 on ground truth (paper: highest at 3)",
+    "3B": "3B  orders of refound order 3 (paper: 3)",
+    "3C": "3C  hits on refound order 3",
+    "6": "6  orders of ground truth (paper: 3)",
+    "7": "7  orders, recorded (paper: 4)",
+    "5": "5  hits on ground truth, pooled",
+    "ratio": "6  eq. 17 (paper: highest at 3)",
 }
 MARKED = {"3B": 3.0, "6": 3.0, "7": 4.0}
 
@@ -65,7 +65,20 @@ def draw(points: pd.DataFrame) -> Figure:
             for row in part.itertuples():
                 ax.annotate(row.label, (row.x, row.y), xytext=(4, 3), fontsize=6,
                             textcoords="offset points", color="0.3")  # fmt: skip
+    _one_legend(figure)
     return figure
+
+
+def _one_legend(figure: Figure) -> None:
+    """Put the panels' legends, which say the same, below all of them once."""
+    legends = [legend for ax in figure.axes if (legend := ax.get_legend()) is not None]
+    for legend in legends[1:]:
+        legend.remove()
+    if legends:
+        handles = [h for h in legends[0].legend_handles if h is not None]
+        labels = [text.get_text() for text in legends[0].get_texts()]
+        legends[0].remove()
+        figure.legend(handles, labels, loc="outside lower center", ncols=2)
 
 
 def caption(table: pd.DataFrame) -> str:
