@@ -23,6 +23,7 @@ import yaml
 
 from signkin import joints as joint_names
 from signkin.annotation import TierWish, tier_key
+from signkin.checksum import sha256_of
 from signkin.errors import SignkinError, listed
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
@@ -458,11 +459,11 @@ def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
 def _digest(path: Path) -> str:
     """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
     if not path.is_dir():
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return sha256_of(path)
     whole = hashlib.sha256()
     for file in sorted(path.iterdir()):
         if file.is_file():
-            whole.update(f"{file.name}\0{hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+            whole.update(f"{file.name}\0{sha256_of(file)}\n".encode())
     return whole.hexdigest()
 
 

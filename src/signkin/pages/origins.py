@@ -14,6 +14,7 @@ import pandas as pd
 import signkin
 from signkin import tables
 from signkin.checkout import checkout
+from signkin.checksum import sha256_of
 from signkin.exhibits import exhibits, of_groups
 from signkin.pages.sources import Sources
 from signkin.pages.times import TIMES
@@ -55,7 +56,7 @@ def _versions(commit_: str) -> Section:
     ]
     lock = (checkout() or Path()) / "requirements.lock"
     if lock.is_file():
-        rows.append(("SHA-256 of requirements.lock", _digest(lock)))
+        rows.append(("SHA-256 of requirements.lock", sha256_of(lock)))
     rows += [(name, there) for name, there in _packages()]
     view = TableView(
         label="", title="Versions", caption="Packages as they are installed where the run was "
@@ -79,11 +80,6 @@ def _packages() -> Iterator[tuple[str, str]]:
             continue  # of an extra that is not installed
 
 
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
 def data_files(sources: Sources) -> pd.DataFrame:
     """Return a row a file that the run read: corpus, file, size, SHA-256."""
     rows = []
@@ -97,7 +93,9 @@ def data_files(sources: Sources) -> pd.DataFrame:
         ]:
             if path.is_file():
                 size = path.stat().st_size
-                rows.append({"corpus": name, "file": label, "bytes": size, "sha256": _digest(path)})
+                rows.append(
+                    {"corpus": name, "file": label, "bytes": size, "sha256": sha256_of(path)}
+                )
     return pd.DataFrame(rows, columns=tables.TABLES["data_files"].names())
 
 

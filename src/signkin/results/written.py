@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from signkin.checksum import sha256_of
+
 STATE = Path(".snakemake") / "signkin-written"
 
 
@@ -30,7 +32,7 @@ def record(outputs: Iterable[str | Path], state: Path = STATE) -> None:
 
     outputs: paths as the workflow has them, relative to the folder of the run.
     """
-    hashes = {path.as_posix(): _hash(path) for path in _files(map(Path, outputs))}
+    hashes = {path.as_posix(): sha256_of(path) for path in _files(map(Path, outputs))}
     if not hashes:
         return
     state.mkdir(parents=True, exist_ok=True)
@@ -78,7 +80,7 @@ def differences(results: Path, state: Path = STATE) -> Iterator[Difference]:
             yield Difference(path, "missing")
         elif path not in known:
             yield Difference(path, "not of a job")
-        elif _hash(path) != known[path]:
+        elif sha256_of(path) != known[path]:
             yield Difference(path, "changed")
 
 
@@ -91,7 +93,7 @@ def take_out_changed(state: Path = STATE, root: Path = Path()) -> list[Path]:
     """
     known = recorded(state)
     there = {path: value for path, value in known.items() if (root / path).is_file()}
-    taken = [path for path, value in sorted(there.items()) if _hash(root / path) != value]
+    taken = [path for path, value in sorted(there.items()) if sha256_of(root / path) != value]
     for path in taken:
         (root / path).unlink()
     gone = {path.as_posix() for path in (known.keys() - there.keys()) | set(taken)}
@@ -110,8 +112,3 @@ def _files(paths: Iterable[Path]) -> Iterator[Path]:
             )
         elif path.is_file():
             yield path
-
-
-def _hash(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -5,7 +5,6 @@ corpus.yaml names them: `downloads: {file: address}`, each with its SHA-256 unde
 
 from __future__ import annotations
 
-import hashlib
 import http.client
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from typing import Any
 from urllib.error import HTTPError, URLError
 from urllib.request import Request, urlopen
 
+from signkin.checksum import sha256_of
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 
@@ -74,13 +74,10 @@ def fetch(
 
 
 def _verify(path: Path, wanted: str, place: Path, todo: str) -> None:
-    digest = hashlib.sha256()
-    with path.open("rb") as file:
-        while block := file.read(CHUNK):
-            digest.update(block)
-    if digest.hexdigest() != wanted:
+    found = sha256_of(path)
+    if found != wanted:
         raise SignkinError(
-            f"its SHA-256 is {digest.hexdigest()}",
+            f"its SHA-256 is {found}",
             file=path,
             expected=f"{wanted} ({place}, key checksums)",
             todo=todo,

@@ -98,33 +98,18 @@ def _single_signs(
         if view.svg.stem == "fig07":
             learnt = partial(report_beside.learnt, folder)
             yield from (("recorded", one) for one in attempted("The prior learnt", learnt))
-    yield "choices", _figure(folder, "order_choices", "Orders under all choices")
+    yield "choices", report_beside.figure(folder, "order_choices", "Orders under all choices")
     priors, doubts = (
         partial(of, folder) for of in (report_beside.two_priors, report_beside.doubts)
     )
     yield from (("choices", one) for one in attempted("Two readings of the prior", priors))
     yield from (("found", one) for one in attempted("Does the noise fit?", doubts))
     title = "Power laws of recorded movement, and of noise"
-    yield "power-laws", _figure(folder, "recorded_laws", title, "law_pitfalls.csv")
+    yield "power-laws", report_beside.figure(folder, "recorded_laws", title, "law_pitfalls.csv")
     out = partial(left_out, folder / "left_out.csv")
     yield from (("left-out", view) for view in attempted("Left out", out))
     rejected = partial(_rejected, folder)
     yield from (("power-laws", view) for view in attempted("Rejected draws", rejected))
-
-
-def _figure(folder: Path, name: str, title: str, *others: str) -> FigureView:
-    """Return the view of a figure that is no exhibit; others: tables beside its own."""
-    base = folder / f"fig_{name}"
-    return FigureView(
-        label="",
-        title=title,
-        caption=(folder / f"{name}.txt").read_text(encoding="utf-8").strip(),
-        svg=base.with_suffix(".svg"),
-        files=[
-            *figure_files(base, ".svg", ".pdf"),
-            *(folder / f for f in (f"{name}.csv", *others)),
-        ],
-    )
 
 
 # --- tables ----------------------------------------------------------------------------------

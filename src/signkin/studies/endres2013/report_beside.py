@@ -50,6 +50,21 @@ def doubts(folder: Path) -> Iterator[TableView]:
     )
 
 
+def figure(folder: Path, name: str, title: str, *others: str) -> FigureView:
+    """Return the view of a figure that is no exhibit; others: tables beside its own."""
+    base = folder / f"fig_{name}"
+    return FigureView(
+        label="",
+        title=title,
+        caption=(folder / f"{name}.txt").read_text(encoding="utf-8").strip(),
+        svg=base.with_suffix(".svg"),
+        files=[
+            *figure_files(base, ".svg", ".pdf"),
+            *(folder / f for f in (f"{name}.csv", *others)),
+        ],
+    )
+
+
 def learnt(folder: Path) -> Iterator[TableView]:
     """Yield what the recordings say of the prior (empirical Bayes); nothing where too few are."""
     path = folder / "learnt_prior.csv"
@@ -88,13 +103,7 @@ def two_priors(folder: Path) -> Iterator[TableView | FigureView]:
     """Yield Fig. 3 to 7 under the prior of config.yaml and the one beside it: figure and table."""
     path = folder / "two_priors.csv"
     table = read_table(path, "two_priors")
-    yield FigureView(
-        label="",
-        title="Fig. 3 to 7 under two readings of the prior",
-        caption=(folder / "two_priors.txt").read_text(encoding="utf-8").strip(),
-        svg=folder / "fig_two_priors.svg",
-        files=[*figure_files(folder / "fig_two_priors", ".svg", ".pdf"), path],
-    )
+    yield figure(folder, "two_priors", "Fig. 3 to 7 under two readings of the prior")
     names = dict(table.groupby("reading")["prior"].first())
     yield TableView(
         label="",
