@@ -265,7 +265,7 @@ def _claims(sources: Sources) -> Section:
         "the printed numbers be right, and is it so in other people's signing?"
     ]
     text += [
-        f"Inconsistent on the paper's own numbers: {row.id} ({row.location}), that "
+        f"Inconsistent on the paper's own numbers: {row.id} of {row.paper} ({row.location}), that "
         f"“{row.claim.rstrip('.')}”: {row.note}."
         for row in bad.itertuples()
     ]
@@ -293,8 +293,10 @@ def _claims(sources: Sources) -> Section:
 
 
 def _outcomes(claims: pd.DataFrame) -> pd.DataFrame:
+    """Return a row a claim; a paper that is audited on its print alone asks nothing of corpora."""
+    asked = claims.groupby("paper")["evidence"].transform(lambda e: (e != PRINT).any())
     rows = []
-    for (_, claim), own in claims.groupby(["paper", "id"], sort=False):
+    for (_, claim), own in claims[asked].groupby(["paper", "id"], sort=False):
         real = own[(own["evidence_kind"] == "real") & own["verdict"].isin(ORDER[:4])]
         found = set(real["verdict"])
         outcome = (
