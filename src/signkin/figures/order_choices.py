@@ -24,15 +24,17 @@ DEFAULT: dict[str, Any] = {
 
 def plot_settings(
     points: pd.DataFrame, column: str, *, ax: Axes, groups: Sequence[str], colour: str, marker: str,
-    paper: float | None = None,
+    paper: float | None = None, whole: pd.DataFrame | None = None,
 ) -> Axes:  # fmt: skip
     """Draw one outcome of all settings in columns, one a group; grey bars between them.
 
     points: rows of the table `order_choices`, with a column `group`. colour, marker: columns
-    whose values are told by colour and by shape. paper: the printed value, a dashed line.
+    whose values are told by colour and by shape. paper: the printed value, a dashed line. whole:
+    the rows that colours and shapes are dealt out over, where `points` are a part of them.
     """
-    colours = _kinds(points[colour], SETTING_COLOURS)
-    shapes = _kinds(points[marker], MARKERS)
+    dealt = points if whole is None else whole
+    colours = _kinds(dealt[colour], SETTING_COLOURS)
+    shapes = _kinds(dealt[marker], MARKERS)
     spread = np.linspace(-0.33, 0.33, max(len(colours) * len(shapes), 2))
     places = {(c, m): x for (c, m), x in zip(product(colours, shapes), spread, strict=False)}
     for (c, m), place in places.items():

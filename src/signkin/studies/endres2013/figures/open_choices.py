@@ -21,6 +21,8 @@ OUTCOMES: dict[str, tuple[str, float | None]] = {
     "hpfpps_order_3": ("hits / false pos.\na second (s)", None),
     "recovered_hit_rate": ("hit rate, refound\norder 3", 1.0),
 }
+MOST_COLUMNS = 12  # whose labels can be read at the usual width
+PANEL_IN = (1.15, 0.85)  # height of a panel: of one band of columns, of several
 
 
 def drawn(frame: pd.DataFrame) -> Drawn:
@@ -33,22 +35,27 @@ def draw(frame: pd.DataFrame) -> Figure:
     points = frame.copy()
     points["group"] = points["noise"].str.replace(" ", "\n") + "\n" + points["time_unit"]
     groups = list(dict.fromkeys(points["group"]))
-    # Twelve columns fit the usual width; readings in a unit of length are more.
-    wide = max(1.0, len(groups) / 12)
+    bands = _bands(groups)
+    height = PANEL_IN[len(bands) > 1] * len(OUTCOMES) + 0.6
     figure, axes = plt.subplots(
-        len(OUTCOMES), 1, figsize=(WIDTH_IN * 1.25 * wide, 1.15 * len(OUTCOMES) + 1.2), sharex=True
+        len(OUTCOMES) * len(bands), 1, figsize=(WIDTH_IN * 1.25, len(bands) * height + 0.6)
     )
-    for ax, (column, (label, paper)) in zip(axes, OUTCOMES.items(), strict=True):
-        drawing.plot_settings(
-            points, column, ax=ax, groups=groups, colour="dof", marker="concentration",
-            paper=paper,
-        )  # fmt: skip
-        if column.startswith("mean_count"):
-            ax.set_yscale("symlog", linthresh=10, linscale=2)  # few settings find a boundary a bin
-            ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
-            ax.set_ylim(-1.5, 160)
-        ax.set_ylabel(label, fontsize=7.5)
-        ax.tick_params(axis="x", labelsize=7 if wide == 1 else 6)
+    for b, band in enumerate(bands):
+        rows = points[points["group"].isin(band)]
+        for o, (column, (label, paper)) in enumerate(OUTCOMES.items()):
+            ax = axes[b * len(OUTCOMES) + o]
+            drawing.plot_settings(
+                rows, column, ax=ax, groups=band, colour="dof", marker="concentration",
+                paper=paper, whole=points,
+            )  # fmt: skip
+            if b:
+                ax.sharey(axes[o])
+            if column.startswith("mean_count"):
+                ax.set_yscale("symlog", linthresh=10, linscale=2)  # few find a boundary a bin
+                ax.set_yticks([0, 5, 10, 100], ["0", "5", "10", "100"])
+                ax.set_ylim(-1.5, 160)
+            ax.set_ylabel(label, fontsize=7.5 if len(bands) == 1 else 6.5)
+            ax.tick_params(axis="x", labelsize=7, labelbottom=column == list(OUTCOMES)[-1])
     figure.legend(
         handles=drawing.handles(
             points, "dof", "concentration", {"dof": "dof", "concentration": "b"}
@@ -56,6 +63,11 @@ def draw(frame: pd.DataFrame) -> Figure:
         loc="outside upper center", ncols=5,
     )  # fmt: skip
     return figure
+
+
+def _bands(groups: list[str]) -> list[list[str]]:
+    """Return the columns in bands, one below the other, of as many columns as labels allow."""
+    return [groups[i : i + MOST_COLUMNS] for i in range(0, len(groups), MOST_COLUMNS)]
 
 
 def caption(frame: pd.DataFrame) -> str:
