@@ -19,7 +19,7 @@ import numpy as np
 from signkin.errors import SignkinError, listed
 from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
 from signkin.io.registry import SourceMotion, motion_reader
-from signkin.io.text import content_of, encoding_of
+from signkin.io.text import content_of, encoding_of, quoted
 
 _NO_POSITIONS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 
@@ -31,11 +31,13 @@ def read_c3d(
     joints: Mapping[str, str] | None = None,
     part: str | None = None,
     incomplete: bool = False,
+    header: str = "check",
     encoding: str = "utf-8",
 ) -> SourceMotion:
     """Read the points of a C3D file: labels by name, of the subject `part` where there are several.
 
-    incomplete: read a file of fewer frames than its header promises. encoding: of the labels.
+    incomplete: read a file of fewer frames than its header promises. header: `check` (its rate and
+    numbers must agree with the parameters) or `ignore`. encoding: of the labels.
     """
     try:
         import c3d
@@ -47,10 +49,10 @@ def read_c3d(
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
-            reader = c3d.Reader(io.BytesIO(content))
+            reader = _reader(c3d, content, header)
             labels, about = _about(reader, encoding_of(b"", encoding))
             _check_size(reader, len(content), incomplete)
-            frames = [points for _, points, _ in reader.read_frames()]
+            frames = [points for _, points, _ in reader.read_frames(check_nan=False)]
             first = int(reader.first_frame)
             promised = _promised(reader)
     except SignkinError:
@@ -61,6 +63,14 @@ def read_c3d(
             place=f"{len(content)} bytes",
             expected="a whole file; this one may be damaged",
         ) from error
+    if len(frames) > promised and not incomplete:
+        raise SignkinError(
+            f"{len(frames)} frames by the header's last frame, {promised} by POINT:FRAMES",
+            place="header",
+            expected="one number of frames",
+            todo="Declare options: {incomplete: true} to read the smaller number.",
+        )
+    frames = frames[:promised]
     if not frames or not labels:
         raise SignkinError("no points in the file", expected="points, over 2 frames or more")
     notes: list[str] = []
@@ -92,6 +102,32 @@ def read_c3d(
         clock_place="POINT:RATE",
         notes=tuple(notes),
     )
+
+
+def _reader(c3d: Any, content: bytes, header: str) -> Any:
+    """Return the library's reader; where header and parameters differ, say in what."""
+    if header not in ("check", "ignore"):
+        raise SignkinError(
+            f"header is {quoted(header)}", place="options, header", expected="check or ignore"
+        )
+
+    class Reader(c3d.Reader):  # type: ignore[misc,name-defined,unused-ignore]
+        """A reader that ends with a sentence, or takes the parameters' word."""
+
+        def _check_metadata(self) -> None:
+            if header == "ignore":
+                return
+            try:
+                super()._check_metadata()
+            except AssertionError as error:
+                raise SignkinError(
+                    str(error).replace(" header != ", " in the header, "),
+                    place="header",
+                    expected="what the parameters say",
+                    todo="Declare options: {header: ignore} where the parameters are right.",
+                ) from error
+
+    return Reader(io.BytesIO(content))
 
 
 class _About:

@@ -6,6 +6,7 @@ pixels without the image's size, which is to be declared.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import islice
@@ -14,23 +15,26 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.chosen import pick
 from signkin.io.landmarks import landmark_names
-from signkin.io.points import Points, refuse_shares, source_motion, threshold_of
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.points import Points, check_confidence, source_motion, threshold_of
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import (
     FIRST_LINE,
     Layout,
-    check_length,
     finest_half_digit,
     numbers_of,
     rows_of,
 )
 from signkin.io.text import quoted
+from signkin.rows import check_length
 
 # DeepLabCut's own `pcutoff`, and what MediaPipe takes for a landmark that is in view.
 LIKELY, VISIBLE = 0.6, 0.5
+_NUMBERED = re.compile(r"(?P<video>.*?)(?P<frame>[0-9]{1,15})(?:\.0+|\.[A-Za-z]{2,4})?", re.DOTALL)
 
 
 @motion_reader("mediapipe_csv")
@@ -81,6 +85,7 @@ def read_mediapipe_csv(
     table, short = _body(path, layout, header, [*clock, *titles, *trust.values()], 2, gaps=True)
     points = numbers_of(table, titles).reshape(len(table), len(chosen), 3)
     seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
+    _check_seen(seen)
     masked = sum(int((values < limit).sum()) for values in seen.values())
     notes = [f"{short} rows without all landmarks are gaps"] if short else []
     if masked:
@@ -137,14 +142,14 @@ def read_openpose_csv(
     table, _ = _body(path, layout, header, [*titles, *trust.values()], 1)
     positions = np.zeros((len(table), len(chosen), 3))
     positions[..., :2] = numbers_of(table, titles).reshape(len(table), len(chosen), 2)
-    if image_size is None:
-        refuse_shares(positions, "coordinates")
+    seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
+    _check_seen(seen)
     return source_motion(
         Points(
             joints=canonical,
             positions=positions,
             flat=(True,) * len(canonical),
-            confidence={name: numbers_of(table, [title])[:, 0] for name, title in trust.items()},
+            confidence=seen,
             unit="px",
         ),
         missing=(0.0,),
@@ -190,11 +195,16 @@ def read_deeplabcut_csv(
         raise SignkinError(
             f"no individual {quoted(part)}", place="part", expected=listed(p for p in people if p)
         )
-    places = {
-        (parts[i], coords[i]): str(i)
-        for i in range(before, len(coords))
-        if part is None or owners[i] == part
-    }
+    places: dict[tuple[str, str], str] = {}
+    for i in range(before, len(coords)):
+        if part is None or owners[i] == part:
+            if (parts[i], coords[i]) in places:
+                raise SignkinError(
+                    f"{quoted(parts[i])} has two columns {coords[i]}",
+                    place=f"line {titles.index('coords') + 1}",
+                    expected="each body part once; two scorers in one table are two recordings",
+                )
+            places[parts[i], coords[i]] = str(i)
     names = tuple(dict.fromkeys(name for name, axis in places if axis == "x"))
     canonical, chosen = pick(names, joints)
     axes = ("x", "y", "z") if all((names[i], "z") in places for i in chosen) else ("x", "y")
@@ -208,12 +218,14 @@ def read_deeplabcut_csv(
         if (names[i], "likelihood") in places
     }
     header = [str(i) for i in range(len(coords))]
+    index = header[: max(before, 1)]
     first = titles.index("coords") + FIRST_LINE
-    table, _ = _body(path, layout, header, [*wanted, *trust.values(), "0"], first)
-    _check_index(table)
+    table, _ = _body(path, layout, header, [*wanted, *trust.values(), *index], first)
+    _check_index(table, index)
     positions = np.zeros((len(table), len(chosen), 3))
     positions[..., : len(axes)] = numbers_of(table, wanted).reshape(len(table), len(chosen), -1)
     seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
+    _check_seen(seen)
     masked = sum(int((values < limit).sum()) for values in seen.values())
     note = f"{masked} points less likely than {limit:g} are gaps"
     return source_motion(
@@ -229,18 +241,30 @@ def read_deeplabcut_csv(
     )
 
 
-def _check_index(table: pd.DataFrame) -> None:
-    """Refuse numbered frames that do not follow one another; names of images are not looked at."""
-    cells = [cell.strip() for cell in table["0"].tolist()]
-    if not all(cell.isascii() and cell.isdigit() and len(cell) < 16 for cell in cells):
-        return
-    for i in range(1, len(cells)):
-        if int(cells[i]) - int(cells[i - 1]) != 1:
+def _check_index(table: pd.DataFrame, titles: Sequence[str]) -> None:
+    """Refuse frames that do not follow one another, by number or by the image's name.
+
+    Images are `labeled-data/video/img0001.png`, in one cell or in three.
+    """
+    names = ["/".join(cells) for cells in zip(*(table[t].tolist() for t in titles), strict=True)]
+    before: tuple[str, int] | None = None
+    for i, name in enumerate(names):
+        found = _NUMBERED.fullmatch(name.strip().rstrip("/"))
+        if found is None:
+            return  # names without numbers say nothing
+        now = (found["video"], int(found["frame"]))
+        if before is not None and (now[0] != before[0] or now[1] - before[1] != 1):
             raise SignkinError(
-                f"frame {cells[i]} follows frame {cells[i - 1]}",
+                f"frame {quoted(name)} follows {quoted(names[i - 1])}",
                 place=f"line {table.index[i] + FIRST_LINE}",
-                expected="frame numbers that rise by 1",
+                expected="the frames of one video, whose numbers rise by 1",
             )
+        before = now
+
+
+def _check_seen(seen: Mapping[str, NDArray[np.float64]]) -> None:
+    for joint, values in seen.items():
+        check_confidence(values[:, None], [joint])
 
 
 def _once(names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int]]:
