@@ -19,6 +19,7 @@ from signkin.clock import SECONDS_PER, Clock, clock_of
 from signkin.errors import SignkinError, listed
 from signkin.io.table import FIRST_LINE, column_numbers, finest_half_digit, known_column
 from signkin.io.text import number, quoted
+from signkin.io.text_rows import TextTable
 from signkin.rows import plain_name
 
 FRAMES = frozenset({"frame", "frames", "frame_number", "frame_no", "frame_nr", "frame_num",
@@ -29,6 +30,9 @@ OWNERS = frozenset({"person", "person_id", "subject", "subject_id", "participant
 # These may also number or name each row; they tell people apart where a value comes again.
 NAMES = frozenset({"id", "name", "user", "user_id", "file", "filename", "file_name", "source",
                    "object", "video_id", "clip_id"})  # fmt: skip
+# Of tags alone: whose layers they are, and numbers of rows.
+TIERS = frozenset({"tier", "tier_name", "layer", "hand", "articulator", "track"})
+IDS = frozenset({"id", "annotation_id", "tag_id", "sign_id"})
 _STEMS = ("time", "times", "t", "timestamp", "timestamps", "elapsed", "elapsed_time")
 _UNITS = {
     **dict.fromkeys(("s", "sec", "secs", "seconds"), "s"),
@@ -71,6 +75,38 @@ def told_by(rows: pd.DataFrame, declared: Sequence[str], clocked: bool) -> Told:
         if clock is not None:
             return Told(clock, f"column {column}", tuple(notes))
     return Told(notes=tuple(notes))
+
+
+def check_undeclared(table: TextTable, declared: Sequence[str]) -> None:
+    """Refuse tags whose undeclared columns tell several recordings, people or tiers apart.
+
+    declared: columns that are declared, or to be ignored.
+    """
+    for place, column in enumerate(table.columns):
+        name = plain_name(column)
+        if column in declared or name not in OWNERS | NAMES | TIERS | IDS:
+            continue
+        cells = [row.cells[place].strip() for row in table.rows]
+        owners = list(dict.fromkeys(cells))
+        again = next((i for i, cell in enumerate(cells) if cell and cell in cells[:i]), None)
+        if name in IDS:
+            if again is not None and len(owners) > 1:
+                raise SignkinError(
+                    f"{column} {quoted(cells[again])} stands twice",
+                    place=f"line {table.rows[again].line}",
+                    expected="each once",
+                    todo=f"Are rows doubled? Otherwise declare options: {{ignore: [{column}]}}.",
+                )
+            continue
+        if len(owners) < 2 or (name in NAMES and len(owners) == len(cells)):
+            continue
+        option = "tier_column" if name in TIERS else "recording_column, participant_column"
+        raise SignkinError(
+            f"{len(owners)} values in the column {column}: {listed(owners, 3)}",
+            place=f"line {table.rows[cells.index(owners[1])].line}",
+            expected="what it tells apart, declared",
+            todo=f"Declare options: {option}, or {{ignore: [{column}]}}.",
+        )
 
 
 def _check_owner(rows: pd.DataFrame, column: str, only_where_again: bool) -> None:
