@@ -3,6 +3,7 @@
 from signkin.io import (
     bvh,
     c3d,
+    c3d_events,
     eaf,
     elan_tab,
     exports,
@@ -31,6 +32,7 @@ __all__ = [
     "annotation_formats",
     "bvh",
     "c3d",
+    "c3d_events",
     "eaf",
     "elan_tab",
     "exports",

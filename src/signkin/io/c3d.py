@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import content_of, encoding_of, quoted
 
+T = TypeVar("T")
 _NO_POSITIONS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 
 
@@ -39,30 +40,15 @@ def read_c3d(
     incomplete: read a file of fewer frames than its header promises. header: `check` (its rate and
     numbers must agree with the parameters) or `ignore`. encoding: of the labels.
     """
-    try:
-        import c3d
-    except ImportError:
-        raise SignkinError(
-            "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
-        ) from None
-    content = content_of(path)
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            reader = _reader(c3d, content, header)
-            labels, about = _about(reader, encoding_of(b"", encoding))
-            _check_size(reader, len(content), incomplete)
-            frames = [points for _, points, _ in reader.read_frames(check_nan=False)]
-            first = int(reader.first_frame)
-            promised = _promised(reader)
-    except SignkinError:
-        raise
-    except Exception as error:  # the library lets struct, index and assertion errors through
-        raise SignkinError(
-            f"not readable as a C3D file ({type(error).__name__}: {error})",
-            place=f"{len(content)} bytes",
-            expected="a whole file; this one may be damaged",
-        ) from error
+    size = path.stat().st_size
+
+    def read(reader: Any) -> tuple[list[str], _About, list[Any], int, int]:
+        labels, about = _about(reader, encoding_of(b"", encoding))
+        _check_size(reader, size, incomplete)
+        frames = [points for _, points, _ in reader.read_frames(check_nan=False)]
+        return labels, about, frames, int(reader.first_frame), _promised(reader)
+
+    labels, about, frames, first, promised = opened(path, header, read)
     if len(frames) > promised and not incomplete:
         raise SignkinError(
             f"{len(frames)} frames by the header's last frame, {promised} by POINT:FRAMES",
@@ -104,6 +90,32 @@ def read_c3d(
     )
 
 
+def opened(path: Path, header: str, read: Callable[[Any], T]) -> T:
+    """Return what `read` takes from the library's reader; whatever the library says is a sentence.
+
+    header: see `read_c3d`.
+    """
+    try:
+        import c3d
+    except ImportError:
+        raise SignkinError(
+            "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
+        ) from None
+    content = content_of(path)
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return read(_reader(c3d, content, header))
+    except SignkinError:
+        raise
+    except Exception as error:  # the library lets struct, index and assertion errors through
+        raise SignkinError(
+            f"not readable as a C3D file ({type(error).__name__}: {error})",
+            place=f"{len(content)} bytes",
+            expected="a whole file; this one may be damaged",
+        ) from error
+
+
 def _reader(c3d: Any, content: bytes, header: str) -> Any:
     """Return the library's reader; where header and parameters differ, say in what."""
     if header not in ("check", "ignore"):
@@ -136,28 +148,29 @@ class _About:
     def __init__(self, reader: Any, encoding: str) -> None:
         rate = float(reader.point_rate)
         self.rate_hz = float(str(np.float32(rate)))
-        units = _strings(reader, "POINT.UNITS", encoding)
+        units = strings(reader, "POINT.UNITS", encoding)
         self.unit = unit_of(units[0].split()[0]) if units and units[0].split() else None
         self.no_positions = {
             label
             for key in _NO_POSITIONS
-            for label in _strings(reader, f"POINT.{key}", encoding)
+            for label in strings(reader, f"POINT.{key}", encoding)
             if label
         }
 
 
 def _about(reader: Any, encoding: str) -> tuple[list[str], _About]:
-    labels = _strings(reader, "POINT.LABELS", encoding)
+    labels = strings(reader, "POINT.LABELS", encoding)
     more = 2
-    while _strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
-        labels += _strings(reader, f"POINT.LABELS{more}", encoding)
+    while strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
+        labels += strings(reader, f"POINT.LABELS{more}", encoding)
         more += 1
     used = int(reader.point_used)
     labels = [*labels, *(f"*{i}" for i in range(len(labels), used))][:used]
     return labels, _About(reader, encoding)
 
 
-def _strings(reader: Any, key: str, encoding: str) -> list[str]:
+def strings(reader: Any, key: str, encoding: str) -> list[str]:
+    """Return the texts of a parameter, none where it is not there."""
     parameter = reader.get(key)
     if parameter is None or not len(parameter.bytes):
         return []
