@@ -32,7 +32,7 @@ from signkin.survey.skeletons import joint_map
 # Formats by suffix, tried in order: the first that reads the file is taken.
 MOTION: dict[str, tuple[str, ...]] = {
     ".bvh": ("bvh",), ".c3d": ("c3d",), ".trc": ("trc",), ".pose": ("pose",), ".tsd": ("tsd",),
-    ".npy": ("npy",), ".npz": ("npy",),
+    ".npy": ("npy",), ".npz": ("npy",), ".h5": ("deeplabcut_h5",),
     ".csv": ("vicon_csv", "motive_csv", "deeplabcut_csv", "mediapipe_csv", "openpose_csv", "csv"),
     ".tsv": ("qualisys_tsv", "csv"),
 }  # fmt: skip
