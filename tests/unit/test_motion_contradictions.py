@@ -163,6 +163,14 @@ def test_a_folder_of_frames_holds_one_video(tmp_path):
         read_recording(folder, **spec)
 
 
+def test_formats_that_are_not_read_say_what_to_do(tmp_path):
+    for suffix, told in ((".AMC", "convert both to BVH"), (".asf", "BVH"), (".xlsx", "as CSV")):
+        path = tmp_path / f"a{suffix}"
+        path.write_bytes(b"x")
+        with pytest.raises(SignkinError, match=f"{suffix.lower()} is not read.*{told}"):
+            read_recording(path, unit="m")
+
+
 def test_kinect_in_millimetres_is_refused(tmp_path):
     made = SAMPLES["kinect"]
     made.write(tmp_path / "k.txt", motion(12) * 1000)

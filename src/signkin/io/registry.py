@@ -27,6 +27,16 @@ from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
+# What people bring and no reader reads -> what to do.
+CONVERTED = {
+    ".asf": "It is the skeleton of an .amc file: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".amc": "With its .asf it is one recording: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".fbx": "Export it as BVH (Blender, MotionBuilder).",
+    ".mvnx": "Export it as BVH or C3D from MVN Analyze.",
+    ".xlsx": "Save it as CSV.",
+    ".xls": "Save it as CSV.",
+    ".mat": "Save the positions as .npy, (frames, points, 3): scipy.io.loadmat, numpy.save.",
+}
 METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "ft": 0.3048}
 # A printed frame time such as 0.0333333 s is 30.00003 Hz: a declared rate may be this far off.
 RATE_TOLERANCE = 1e-3
@@ -366,6 +376,13 @@ def _find(
     for reader, suffixes in readers.values():
         if path.suffix.lower() in suffixes:
             return reader
+    if what == "motion" and path.suffix.lower() in CONVERTED:
+        raise SignkinError(
+            f"{path.suffix.lower()} is not read",
+            file=path,
+            expected="a motion format of docs/adding-a-corpus.md",
+            todo=CONVERTED[path.suffix.lower()],
+        )
     known = sorted(suffix for _, suffixes in readers.values() for suffix in suffixes)
     raise SignkinError(
         f"the suffix {quoted(path.suffix)} tells no {what} format",

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from signkin.errors import SignkinError, listed
 from signkin.io import read_annotation, read_recording
 from signkin.io.landmarks import MEDIAPIPE_HAND, MEDIAPIPE_POSE
-from signkin.io.registry import METRES_PER
+from signkin.io.registry import CONVERTED, METRES_PER
 from signkin.joints import HANDS
 from signkin.kinematics.noise import measure_noise
 from signkin.kinematics.plausibility import LIMITS
@@ -120,7 +120,10 @@ def _motion(files: Sequence[Path], folder: Path) -> tuple[list[Path], str, Probe
         f"no motion that can be read{'; the last try: ' + said[-1] if said else ''}",
         file=folder,
         expected=f"files of {listed(MOTION, 20)}",
-        todo="docs/adding-a-corpus.md tells every format and its options.",
+        todo=next(
+            (CONVERTED[p.suffix.lower()] for p in files if p.suffix.lower() in CONVERTED),
+            "docs/adding-a-corpus.md tells every format and its options.",
+        ),
     )
 
 
