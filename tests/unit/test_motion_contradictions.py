@@ -11,7 +11,7 @@ import struct
 import numpy as np
 import pytest
 
-from signkin import SignkinError, read_recording
+from signkin import SignkinError, read_annotation, read_recording
 from support.motion_files import SAMPLES, motion, pixels
 
 
@@ -169,6 +169,25 @@ def test_formats_that_are_not_read_say_what_to_do(tmp_path):
         path.write_bytes(b"x")
         with pytest.raises(SignkinError, match=f"{suffix.lower()} is not read.*{told}"):
             read_recording(path, unit="m")
+
+
+@pytest.mark.parametrize(
+    ("call", "match"),
+    [
+        (lambda p: read_recording(None), "the path is 'None'"),
+        (lambda p: read_annotation(3), "the path is '3'"),
+        (lambda p: read_annotation(p, format="csv", tiers=(3,)), "the tiers are"),
+        (lambda p: read_annotation(p, format="csv", from_s="1"), "from_s is 1"),
+        (lambda p: read_annotation(p, format="csv", to_s="1"), "from_s is 0.0"),
+        (lambda p: read_recording(p, format="c3d", incomplete="no"), "incomplete is 'no'"),
+        (lambda p: read_recording(p, format="npy", confidence=1), "confidence is '1'"),
+    ],
+)
+def test_arguments_of_another_kind_are_told(tmp_path, call, match):
+    path = tmp_path / "x"
+    path.write_text("start,end,label\n0,1,A\n")
+    with pytest.raises(SignkinError, match=match):
+        call(path)
 
 
 def test_kinect_in_millimetres_is_refused(tmp_path):
