@@ -154,7 +154,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
             print(f"signkin: {path} is not what its job wrote; it is deleted, and made anew where "
                   "it is wanted.", file=sys.stderr)  # fmt: skip
         forget_stale_kernels()  # no job may run machine code of other sources
-        command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
+        command = [sys.executable, "-m", "signkin.forked", "--snakefile", str(home / "Snakefile")]
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}

@@ -25,7 +25,7 @@ def run_child(
     posix = sys.platform != "win32"
     child = subprocess.Popen(
         command, cwd=folder, env=dict(environment), pass_fds=(keep,) if posix else (),
-        preexec_fn=_end_with_parent if sys.platform == "linux" else None,
+        preexec_fn=end_with_parent if sys.platform == "linux" else None,
     )  # fmt: skip
 
     def forward(number: int, frame: FrameType | None) -> None:
@@ -47,7 +47,7 @@ def run_child(
             signal.signal(number, handler)
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """Ask the kernel for SIGTERM when the parent dies."""
     import ctypes
 
