@@ -100,7 +100,10 @@ def say(told: argparse.Namespace) -> int:
 
 
 def refuse_unquotable(interpreter: str) -> None:
-    """Refuse a Python whose path a shell takes apart: Snakemake calls it without quotes."""
+    """Refuse a Python whose path a shell takes apart.
+
+    Where jobs are not forked (forked.py), Snakemake calls it without quotes.
+    """
     from signkin.errors import SignkinError
 
     if quote(interpreter) != interpreter:
@@ -124,6 +127,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.child import run_child
     from signkin.cost import failure
     from signkin.errors import SignkinError
+    from signkin.forked import FORKS
     from signkin.lock import held
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
@@ -134,7 +138,8 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         home = workflow_home()
         if (folder / "config.yaml").is_file():
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
-        refuse_unquotable(sys.executable)
+        if not FORKS or any(word.startswith("--executor") or "slurm" in word for word in extra):
+            refuse_unquotable(sys.executable)
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",

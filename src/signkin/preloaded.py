@@ -6,7 +6,7 @@ need them. What cannot be imported is left to the job that wants it, which tells
 
 from __future__ import annotations
 
-import re
+import ast
 from contextlib import suppress
 from importlib import import_module
 
@@ -27,16 +27,19 @@ LIBRARIES = (
     "scipy.stats",
     "seaborn",
 )
-_IMPORT = re.compile(r"^ +from (signkin[\w.]*) import", re.MULTILINE)
 
 
 def names() -> list[str]:
-    """Return the names of the modules, libraries first."""
-    scripts = sorted((workflow_home() / "workflow" / "scripts").rglob("*.py"))
-    found = {name for path in scripts for name in _IMPORT.findall(path.read_text("utf-8"))}
+    """Return the names of the modules, libraries first; of scripts, all that could be one."""
+    found: set[str] = set()
+    for path in sorted((workflow_home() / "workflow" / "scripts").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("signkin"):
+                found |= {f"{node.module}.{alias.name}" for alias in node.names}
+                found.add(str(node.module))
     return [*LIBRARIES, *sorted(found)]
 
 
 for name in names():
-    with suppress(Exception):
+    with suppress(Exception):  # `signkin.tables.read_table` is no module
         import_module(name)

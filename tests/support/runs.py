@@ -133,3 +133,33 @@ MINI = {
         "options": {"start_column": "start", "end_column": "end", "label_column": "gloss"},
     },
 }  # fmt: skip
+
+
+def write_mini(folder: Path, data: Path, **settings: object) -> tuple[Path, Path]:
+    """Write a mini corpus of two recordings; returns the folders of its description and its files.
+
+    folder: that of the run. data: the folder of all data. settings: of corpus.yaml.
+    """
+    corpus, files = folder / "corpora" / "mini", data / "mini"
+    corpus.mkdir(parents=True)
+    files.mkdir(parents=True)
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump({**MINI, **settings}))
+    (corpus / "recordings.csv").write_text(
+        "recording,signer,motion,annotation\nm1,s1,m1.csv,t1.csv\nm2,s2,m2.csv,t2.csv\n"
+    )
+    (corpus / "signs.csv").write_text("gloss,hands,symmetric\nCAKE,1,1\nIX,0,0\n")
+    for i in (1, 2):
+        (files / f"m{i}.csv").write_text(mini_motion(12, i))
+        tags = [(k + 0.05 * i, k + 0.6, ("CAKE", "IX", "NEW")[k % 3]) for k in range(1, 10)]
+        rows = "".join(f"{a:.2f},{b:.2f},{g}\n" for a, b, g in tags)
+        (files / f"t{i}.csv").write_text("start,end,gloss\n" + rows)
+    return corpus, files
+
+
+def files_of(folder: Path) -> dict[str, bytes]:
+    """Return the bytes of every file below a folder, by its place in it."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
