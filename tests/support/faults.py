@@ -328,8 +328,9 @@ def odd_place(bench: Bench) -> Iterator[Row]:
     """Run a checkout and a Python below a path that a shell and a glob take apart."""
     home = bench.base / "my signs & [x] it's"
     (home / "checkout").mkdir(parents=True)
-    for name in ("src", "workflow", "profiles", "papers"):
-        shutil.copytree(ROOT / name, home / "checkout" / name)
+    for name in ("src", "workflow", "profiles", "papers", "corpora"):
+        kept = shutil.ignore_patterns("data", "__pycache__")
+        shutil.copytree(ROOT / name, home / "checkout" / name, ignore=kept)
     shutil.copy(ROOT / "Snakefile", home / "checkout")
     (home / "venv").symlink_to(sys.prefix)
     folder = Path(shutil.copytree(bench.model, home / "run"))

@@ -135,12 +135,14 @@ MINI = {
 }  # fmt: skip
 
 
-def write_mini(folder: Path, data: Path, **settings: object) -> tuple[Path, Path]:
+def write_mini(
+    folder: Path, data: Path, name: str = "mini", **settings: object
+) -> tuple[Path, Path]:
     """Write a mini corpus of two recordings; returns the folders of its description and its files.
 
     folder: that of the run. data: the folder of all data. settings: of corpus.yaml.
     """
-    corpus, files = folder / "corpora" / "mini", data / "mini"
+    corpus, files = folder / "corpora" / name, data / name
     corpus.mkdir(parents=True)
     files.mkdir(parents=True)
     (corpus / "corpus.yaml").write_text(yaml.safe_dump({**MINI, **settings}))
