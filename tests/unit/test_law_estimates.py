@@ -67,7 +67,7 @@ def test_with_errors_in_both_noise_alone_has_no_exponent(rate):
     found = pitfall(float("nan"), 0.8, 5e-4, rate, filtered, np.random.default_rng(1), 40)
     assert found.told(BOTH_ERRORS) == 0 and found.told(LOGARITHMS) == 40
     assert np.isnan([found.mean(BOTH_ERRORS), found.sd(BOTH_ERRORS)]).all()
-    # A movement in six times that noise is told, nearer to what the filter leaves than by logarithms.
+    # A movement in more noise than that is told, and nearer to what the filter leaves of it.
     law = pitfall(-1 / 3, 0.8, 3e-3, rate, filtered, np.random.default_rng(1), 40)
     exact = pitfall(-1 / 3, 0.8, 0.0, rate, filtered, np.random.default_rng(1), 1)
     off = {name: abs(law.mean(name) - exact.mean(name)) for name in (BOTH_ERRORS, LOGARITHMS)}
