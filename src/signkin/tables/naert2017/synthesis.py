@@ -89,7 +89,7 @@ TABLES = (
             text("reading", "how: slerp or linear, chain or greedy"),
             text("printed", "yes where it is as printed"),
             text("claims", "claims that rest on it"),
-            text("method", "interpolation or blending, in the true time"),
+            text("method", "interpolation, of captured transitions in their true time"),
             text("measure", "which error, or distance"),
             text("unit", "its unit; |ln ratio|: none"),
             Column("n", "", "transitions, or lists of five glosses"),
