@@ -48,8 +48,9 @@ def _readings(path: Path) -> TableView:
         label="",
         title="Synthesis with two rules of ours, and as printed",
         caption="Orientations along the arc (slerp) or linear, of captured transitions "
-        "interpolated in their true time; signs of 300 random lists of five glosses chosen for the whole list "
-        "(chain) or each the nearest to the one before (greedy). No claim rests on either.",
+        "interpolated in their true time; signs of 300 random lists of five glosses chosen for the "
+        "whole list (chain) or each the nearest to the one before (greedy). No claim rests on "
+        "either.",
         frame=read_table(path, "readings_synthesis"),
         columns={
             "rule": ("rule", ""),
