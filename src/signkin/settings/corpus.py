@@ -18,8 +18,9 @@ WebAddress = Annotated[str, Field(pattern="^https?://[^ ]+$")]
 
 
 MotionFormat = Literal[
-    "bvh", "c3d", "csv", "deeplabcut_csv", "kinect", "kinect_v2", "mediapipe_csv", "motive_csv",
-    "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv", "trc", "tsd", "vicon_csv",
+    "bvh", "c3d", "csv", "deeplabcut_csv", "deeplabcut_h5", "kinect", "kinect_v2",
+    "mediapipe_csv", "motive_csv", "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv",
+    "trc", "tsd", "vicon_csv",
 ]  # fmt: skip
 Unit = Literal["m", "cm", "mm", "inch", "ft", "px"] | Positive
 
