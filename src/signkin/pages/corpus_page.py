@@ -281,7 +281,7 @@ def _todo(owner: Owner, files: dict[str, Path], elan: dict[str, Path]) -> Sectio
     if elan:
         more = "; the gravest have one" if len(elan) == MOST_FILES else ""
         text.append(
-            "ELAN: the recording's file with a tier `check`, an annotation for each row of this "
+            "ELAN: the recording's file with a tier “check”, an annotation for each row of this "
             f"list ({_counted(len(elan), 'file')} in all{more})."
         )
     view = todo_view(owner, files["todo"], elan)

@@ -163,15 +163,17 @@ def _owner_findings(sources: Sources) -> Section:
     rows = [row for name in order for row in _tag_findings(sources, name)]
     rows += [row for name in order for row in _duration_findings(sources, name)]
     rows += [row for name in order for row in _piece_findings(sources, name)]
+    questions = list(dict.fromkeys(row["question"] for row in rows))
+    rows.sort(key=lambda row: questions.index(row["question"]))
     view = TableView(
         label="",
-        title="Findings by corpus",
+        title="Findings by question and corpus",
         caption="A sentence each; numbers, intervals and tests stand where the link leads.",
         frame=pd.DataFrame(rows, columns=["page", "evidence", "question", "found", "more"]),
         columns={
+            "question": ("question", ""),
             "page": ("corpus", "link"),
             "evidence": ("evidence", ""),
-            "question": ("question", ""),
             "found": ("found", ""),
             "more": ("numbers", "open"),
         },
@@ -261,7 +263,8 @@ def _claims(sources: Sources) -> Section:
     claims = read_table(audit / "claims.csv", "claims")
     bad = claims[(claims["evidence"] == PRINT) & (claims["verdict"] == "inconsistent")]
     text = [
-        f"{claims['id'].nunique()} claims of {claims['paper'].nunique()} papers were tested: can "
+        f"{len(claims.drop_duplicates(['paper', 'id']))} claims of {claims['paper'].nunique()} "
+        "papers were tested: can "
         "the printed numbers be right, and is it so in other people's signing?"
     ]
     text += [

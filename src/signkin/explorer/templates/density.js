@@ -51,7 +51,7 @@ function drawHand(host, hand, hands) {
       stroke: () => css(`--order-${one.order % 8}`), dash: ORDER_DASHES[one.order % 8],
       points: { show: false },
     })),
-    top: stems ? 1.08 : top * 1.08, unit: `${hand} wrist, P(boundary) a bin`,
+    top: stems ? 1.08 : top * 1.08, unit: `${hand} wrist, P(boundary) a bin${stems ? `; dots (order ${stems.order}): of a boundary at most 3 bins away` : ""}`,
     marks: (u, ctx, to) => {
       for (const one of own) {
         if (!SHOWN_ORDERS.has(one.order)) continue;
