@@ -16,12 +16,12 @@ function drawOrders(host, chips) {
   if (!SHOWN_ORDERS.size) SHOWN_ORDERS.add(STEMS.length ? STEMS[0].order : likely);
   const hands = HANDS.filter((hand) => DENSITIES.some((one) => one.hand === hand));
   const plots = hands.map((hand) => [hand, drawHand(host, hand, hands.length)]);
-  chips.append(element("span", "Orders (posterior):", { class: "soft" }));
+  const of = hands.length > 1 ? ` of ${hands.join(" and ")}` : "";
+  chips.append(element("span", `Orders (posterior${of}):`, { class: "soft" }));
   for (const order of orders) {
     const own = DENSITIES.filter((one) => one.order === order);
     const shares = own.map((one) => (one.probability < 0.001 ? "<0.001" : one.probability.toFixed(3)));
-    const told = hands.length > 1 ? own.map((one, i) => `${one.hand} ${shares[i]}`).join(", ") : shares[0];
-    const chip = element("button", `${order} (${told})`, { type: "button", class: "chip",
+    const chip = element("button", `${order} (${shares.join(", ")})`, { type: "button", class: "chip",
       "aria-pressed": String(SHOWN_ORDERS.has(order)), style: `--chip: var(--order-${order % 8})` });
     chip.addEventListener("click", () => {
       if (!SHOWN_ORDERS.delete(order)) SHOWN_ORDERS.add(order);
@@ -51,7 +51,7 @@ function drawHand(host, hand, hands) {
       stroke: () => css(`--order-${one.order % 8}`), dash: ORDER_DASHES[one.order % 8],
       points: { show: false },
     })),
-    top: stems ? 1.08 : top * 1.08, unit: `${hand} wrist, P(boundary) a bin${stems ? `; dots (order ${stems.order}): of a boundary at most 3 bins away` : ""}`,
+    top: stems ? 1.08 : top * 1.08, unit: `${hand} wrist, P(boundary) a bin`,
     marks: (u, ctx, to) => {
       for (const one of own) {
         if (!SHOWN_ORDERS.has(one.order)) continue;
