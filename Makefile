@@ -8,7 +8,7 @@
 # make lint          its first half: style, types, import contracts
 # make coverage      which lines the unit tests run: a table, and build/coverage/index.html
 # make docs          the pages of docs/ and the API as a site: build/docs/index.html
-# make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
+# make numbers DATA=folder   write the numbers of docs/interpretations.md and README.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
 # make audit-draws   10,000 data sets that exist for each check on print: how many are accused
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
@@ -78,6 +78,7 @@ docs: $(VENV)/ready
 
 numbers: $(VENV)/ready
 	$(BIN)/python -m tools.numbers results '$(SIGNKIN_DATA)' $(ARGS)
+	$(BIN)/python -m tools.readme results
 
 audit-draws: $(VENV)/ready
 	$(BIN)/python tests/support/audit_draws.py $(or $(ARGS),10000)

@@ -14,12 +14,14 @@ import sys
 import time
 from importlib.util import find_spec
 from pathlib import Path
+from pkgutil import iter_modules
 from shlex import quote
 
 from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
 
+PROGRESS = "snakemake_logger_plugin_signkin"  # what Snakemake finds, by its name
 RUN_EXAMPLES = """examples:
   signkin run                          all corpora whose recordings are there
   signkin run -n                       what would be done
@@ -87,7 +89,7 @@ def say(told: argparse.Namespace) -> int:
         only = ["--config", f'corpora=["{told.corpus}"]']
         if told.config.is_file() and told.config != Path("config.yaml"):
             only = ["--configfile", str(told.config), *only]
-        status = run_workflow(["--quiet", "all", *only, "--", *targets])
+        status = run_workflow([*only, "--", *targets], brief=True)
         if status:
             return status
         glosses = glosses_of(told.glosses)
@@ -115,9 +117,17 @@ def refuse_unquotable(interpreter: str) -> None:
         )
 
 
-def run_workflow(extra: list[str], folder: Path | None = None) -> int:
+def _told_by(brief: bool) -> list[str]:
+    """Return Snakemake's options for the line of progress, where it finds the package of it."""
+    if all(found.name != PROGRESS for found in iter_modules()):
+        return []
+    return ["--logger", "signkin", *(["--logger-signkin-brief"] if brief else [])]
+
+
+def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = False) -> int:
     """Run Snakemake in a folder (its config.yaml, its results), one run at a time.
 
+    brief: whether nothing is said where there is nothing to do.
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with this process and Snakemake's, so a killed run can
     simply go on, and none starts beside a Snakemake that is still at work.
@@ -160,6 +170,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
                   "it is wanted.", file=sys.stderr)  # fmt: skip
         forget_stale_kernels()  # no job may run machine code of other sources
         command = [sys.executable, "-m", "signkin.forked", "--snakefile", str(home / "Snakefile")]
+        command += _told_by(brief)
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
