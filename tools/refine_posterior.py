@@ -99,11 +99,13 @@ def calibration(
         ]  # fmt: skip
         for hand in HANDS:
             start = TagModel(minimum_sd_s=minimum * TagModel().minimum_sd_s)
+            start=replace(start,most_outward_s=0.19/(cutoff * SETTINGS.kinematics.lowpass.cutoff_hz))
             sets = [(take.tags, *m[hand]) for take, m in zip(takes, minima, strict=True)]
-            model = learn_tag_model(sets, start)
+            acts = [np.isfinite(take.truth[hand][:, 0]) for take in takes]
+            model = learn_tag_model(sets, start, acts=acts)
             model = replace(model, sd_s=jitter * model.sd_s)
-            for take, (tags, times, depth) in zip(takes, sets, strict=True):
-                found = refine_posterior(tags, times, depth, model=model)
+            for take, (tags, times, depth), a in zip(takes, sets, acts, strict=True):
+                found = refine_posterior(tags, times, depth, acts=a, model=model)
                 plain, _, _ = refine_each(tags, times, SETTINGS.refinement.search_window_s)
                 rows.append(_rows(number, hand, take.truth[hand], found, plain, tags))
     return _summary(pd.concat(rows))
