@@ -11,6 +11,7 @@ may lie outward of their boundaries, or inward, by the same (`outward_s`).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -38,7 +39,8 @@ class TagModel:
 
     bias_s: boundary minus tag, of starts and of ends. sd_s: SD of the jitter. gross: share of
     tags with a gross error, whose SD is gross_sd_s. minimum_sd_s: SD of a minimum about where its
-    boundary puts it; only its sum with sd_s shows in the data, so it is assumed, not learnt.
+    boundary puts it, of starts and of ends; only its sum with sd_s shows in the data, so it is
+    assumed (from simulated signing), not learnt.
     outward_s: so much before a start, and after an end, its minimum lies (inward: negative). By
     how much starts and ends lead alike does not show whether tags or minima are off; taken as the
     minima's, up to most_outward_s, which is what a low-pass at 6 Hz can do.
@@ -51,7 +53,7 @@ class TagModel:
     sd_s: float = 0.04
     gross: float = 0.05
     gross_sd_s: float = 0.15
-    minimum_sd_s: float = 0.014
+    minimum_sd_s: tuple[float, float] = (0.0155, 0.013)
     outward_s: float = 0.0
     most_outward_s: float = 0.03
     detection: float = 0.85
@@ -95,7 +97,20 @@ class Tagged:
         return np.asarray((self.first[:, None] + np.arange(self.width)) * self.step_s)
 
 
-def normal(x: Floats, sd: float) -> Floats:
+def most_outward_s(cutoff_hz: float) -> float:
+    """Return how far a low-pass may move a minimum: the SD of its kernel, as of a Gaussian.
+
+    Two passes (forward and back) at cutoff_hz, each with half the power there.
+    """
+    return math.sqrt(math.log(2)) / (math.sqrt(2.0) * math.pi * cutoff_hz)
+
+
+def by_edge(pair: tuple[float, float], edge: Floats) -> Floats:
+    """Return what holds of each boundary, given it for starts and ends."""
+    return (1 - edge) * pair[0] + edge * pair[1]
+
+
+def normal(x: Floats, sd: float | Floats) -> Floats:
     """Return the density of a normal distribution about 0."""
     return np.asarray(np.exp(-0.5 * (x / sd) ** 2) / (sd * np.sqrt(2 * np.pi)))
 
@@ -117,13 +132,12 @@ def near_minima(tagged: Tagged, own: NDArray[np.int64], model: TagModel) -> Floa
     """Return the density of each tag's minima about each time of its grid, (K, A, W); 0: none."""
     usual = tagged.grid_s + model.outward_s * (2 * tagged.edge[:, None] - 1)
     away = np.append(tagged.minima_s, np.inf)[own][:, :, None] - usual[:, None]
-    return normal(away, model.minimum_sd_s)
+    return normal(away, by_edge(model.minimum_sd_s, tagged.edge)[:, None, None])
 
 
 def prior_parts(tagged: Tagged, model: TagModel) -> tuple[Floats, Floats]:
     """Return the probability of each time by jitter and by gross error, (K, W) each."""
-    bias = (1 - tagged.edge) * model.bias_s[0] + tagged.edge * model.bias_s[1]
-    away = tagged.grid_s - (tagged.times_s + bias)[:, None]
+    away = tagged.grid_s - (tagged.times_s + by_edge(model.bias_s, tagged.edge))[:, None]
     parts = []
     for share, sd in ((1 - model.gross, model.sd_s), (model.gross, model.gross_sd_s)):
         density = normal(away, sd) + 1e-300
@@ -186,7 +200,8 @@ def learnt(
     model = replace(model, outward_s=outward, bias_s=(start + outward, end - outward))
     if jitter_known:
         return model
-    return replace(model, sd_s=float(np.hypot(model.sd_s, model.minimum_sd_s)))
+    minimum = np.sqrt(np.mean(np.square(model.minimum_sd_s)))
+    return replace(model, sd_s=float(np.hypot(model.sd_s, minimum)))
 
 
 def _expected(
@@ -198,7 +213,7 @@ def _expected(
     with_core = found.sum(axis=1) * core / (core + gross)
     away = tagged.grid_s - tagged.times_s[:, None]
     acts = 1 - tagged.idle
-    by_edge = np.stack([1 - tagged.edge, tagged.edge]) * acts
+    edges = np.stack([1 - tagged.edge, tagged.edge]) * acts
     classes = len(model.depth_ratio)
     depth = np.append(tagged.depth, 0)
     with_own = found.sum(axis=2) * (own >= 0)
@@ -207,9 +222,9 @@ def _expected(
     spans = np.minimum(np.diff(tagged.times_s), 2 * tagged.reach_s).sum() + 2 * tagged.reach_s
     return {
         "log": np.asarray(log),
-        "core": by_edge @ with_core.sum(axis=1),
-        "first": by_edge @ (with_core * away).sum(axis=1),
-        "second": by_edge @ (with_core * away**2).sum(axis=1),
+        "core": edges @ with_core.sum(axis=1),
+        "first": edges @ (with_core * away).sum(axis=1),
+        "second": edges @ (with_core * away**2).sum(axis=1),
         "minimum": minimum,
         "acting": acts @ with_own.sum(axis=1),
         "idle": tagged.idle @ with_own.sum(axis=1),
