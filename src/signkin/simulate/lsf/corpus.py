@@ -17,6 +17,7 @@ from signkin.simulate.body import Body
 from signkin.simulate.lsf.design import design, utterances_of
 from signkin.simulate.lsf.motion import channel_values, coordinates_of
 from signkin.simulate.lsf.postures import choose_postures
+from signkin.simulate.lsf.second_tagger import second_tags
 from signkin.simulate.lsf.signs import FRAME_S, RATE_HZ, Token, Transition
 from signkin.simulate.lsf.tags import place_tags, true_times
 
@@ -126,6 +127,17 @@ def _design_rows(
 def write_motion(recording: SimulatedRecording, path: Path) -> None:
     """Write the motion as BVH (cm, degrees)."""
     write_bvh(path, Body().hierarchy, recording.values, RATE_HZ)
+
+
+def write_second_tags(recording: SimulatedRecording, path: Path, rng: np.random.Generator) -> None:
+    """Write the signs as a second annotator tags them, as ELAN: one tier, `sign`."""
+    write_eaf(
+        path,
+        author="signkin simulator, second annotator",
+        date="2017-07-09T00:00:00+00:00",
+        media_url=f"{recording.name}.bvh",
+        tiers=[("sign", None, second_tags(recording.utterances, rng))],
+    )
 
 
 def write_tags(recording: SimulatedRecording, path: Path) -> None:
