@@ -127,6 +127,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.lock import held
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
+    from signkin.slurm import slurm_arguments
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -135,6 +136,7 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         if (folder / "config.yaml").is_file():
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
         refuse_unquotable(sys.executable)
+        extra = [*slurm_arguments(extra, folder), *extra]
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",
