@@ -3,7 +3,8 @@
 `signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
 utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
 at corpora before a run, `signkin score` compares two segmentations, `signkin compare` two trees of
-results, `signkin verify` tells what in results/ is not what the run wrote.
+results, `signkin verify` tells what in results/ is not what the run wrote, `signkin simulate`
+writes a corpus of any size.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from shlex import quote
 
+from signkin.growth import commands as growth
 from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
@@ -59,6 +61,7 @@ def main(arguments: list[str] | None = None) -> int:
     add_parser(commands)
     segments.add_parser(commands)
     results.add_parsers(commands)
+    growth.add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
@@ -66,7 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
     others = {
         "score": segments.run_score, "compare": results.run_compare,
-        "verify": results.run_verify,
+        "verify": results.run_verify, "simulate": growth.run_simulate,
     }  # fmt: skip
     if told.command in others:
         return others[told.command](told)

@@ -21,7 +21,8 @@ from support.loopback_slurm import Cluster, asked, loopback, why_not
 from support.runs import ROOT, checked, run, signkin
 
 WHOLE = os.environ.get("SIGNKIN_SLURM") == "whole"
-TABLE = "results/naert2017/mini/transitions.csv"
+TABLE = "results/mini/shards/0001/minima.csv"
+LIMIT_S = 7200 if WHOLE else 1200  # a job takes half a minute to start on a busy machine
 PROFILE = [
     "--workflow-profile", str(ROOT / "profiles" / "slurm"), "--latency-wait", "10",
     "--slurm-init-seconds-before-status-checks", "2",
@@ -97,10 +98,10 @@ def test_a_cluster_that_loses_jobs_makes_the_tables_of_one_machine(mini, tmp_pat
     on_cluster = tmp_path / "on_cluster"
     shutil.copytree(folder, on_cluster)
     target = [] if WHOLE else ["--", TABLE]
-    checked(run(folder, *target, data=data))
+    checked(run(folder, *target, data=data, timeout=LIMIT_S))
     trouble = Trouble(cluster)
     trouble.start()
-    checked(run(on_cluster, *PROFILE, *target, data=data))
+    checked(run(on_cluster, *PROFILE, *target, data=data, timeout=LIMIT_S))
     trouble.over.set()
     trouble.join()
     assert len(trouble.told) == (3 if WHOLE else 1), trouble.told
