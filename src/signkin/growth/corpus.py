@@ -22,7 +22,7 @@ from signkin.errors import SignkinError
 from signkin.io.wide_csv import write_wide_csv
 from signkin.simulate import isl, lsf
 
-AT_ONCE = 16  # the design of lsf-sim has that many utterances
+AT_ONCE = 16  # a design has up to so many utterances, each a recording of its own
 SIGNERS = 8  # of tagged signing: one a design, in turn
 TRIES = 20  # a design may ask for a posture that no body has
 EUCLIDEAN_UNIT_M = 0.1  # of the printed surface
@@ -86,16 +86,21 @@ def _tagged(
                     raise
         raise AssertionError("not reached")
 
-    for first in range(1, recordings + 1, AT_ONCE):
+    first = design = 1
+    while first <= recordings:
         for recording in corpus_of(first).recordings:
+            if not recording.utterances:
+                break  # a design of fewer utterances
             lsf.write_motion(recording, data / f"{recording.name}.bvh")
             lsf.write_tags(recording, data / f"{recording.name}.eaf")
             yield {
                 "recording": recording.name,
-                "signer": f"simulated-{first // AT_ONCE % SIGNERS + 1}",
+                "signer": f"simulated-{design % SIGNERS + 1}",
                 "motion": f"{recording.name}.bvh",
                 "annotation": f"{recording.name}.eaf",
             }
+            first += 1
+        design += 1
 
 
 def _signs(
