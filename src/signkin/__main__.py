@@ -3,7 +3,8 @@
 `signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
 utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
 at corpora before a run, `signkin score` compares two segmentations, `signkin compare` two trees of
-results, `signkin verify` tells what in results/ is not what the run wrote.
+results, `signkin verify` tells what in results/ is not what the run wrote, `signkin simulate`
+writes a corpus of any size.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from shlex import quote
 
+from signkin.growth import commands as growth
 from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
@@ -61,6 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
     add_parser(commands)
     segments.add_parser(commands)
     results.add_parsers(commands)
+    growth.add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
@@ -68,7 +71,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
     others = {
         "score": segments.run_score, "compare": results.run_compare,
-        "verify": results.run_verify,
+        "verify": results.run_verify, "simulate": growth.run_simulate,
     }  # fmt: skip
     if told.command in others:
         return others[told.command](told)
@@ -141,6 +144,7 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
     from signkin.lock import held
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
+    from signkin.slurm import slurm_arguments
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -150,6 +154,7 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
         if not FORKS or any(word.startswith("--executor") or "slurm" in word for word in extra):
             refuse_unquotable(sys.executable)
+        extra = [*slurm_arguments(extra, folder), *extra]
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",
