@@ -93,6 +93,11 @@ class Corpus:
         return self.settings.get("simulator")
 
     @property
+    def made_by_run(self) -> bool:
+        """Whether a rule of the run writes the recordings; no files are there before."""
+        return self.simulator in ("lsf-sim", "isl-sim")
+
+    @property
     def tagged(self) -> bool:
         """Whether the corpus has sign tags, which Naert et al.'s analyses need."""
         return "annotation" in self.settings
@@ -396,10 +401,10 @@ def _read_signs(path: Path) -> Iterator[SignType]:
 def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> Path | None:
     """Return the folder that holds a corpus's recordings, or None where they are not there.
 
-    Simulated corpora lie in the results; real ones in `data_dir/<data_folder>`, or in
+    Corpora that the run makes lie in the results; others in `data_dir/<data_folder>`, or in
     the corpus's own folder `data`.
     """
-    if corpus.simulator is not None:
+    if corpus.made_by_run:
         return results / corpus.name / "simulated"
     name = corpus.settings.get("data_folder", corpus.name)
     candidates = [corpus.folder / "data"]

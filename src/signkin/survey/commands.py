@@ -126,7 +126,7 @@ def list_corpora(data: str | None) -> int:
             )
             if yes
         ]  # fmt: skip
-        state = "made by the run" if corpus.simulator else "there" if there else "no data"
+        state = "made by the run" if corpus.made_by_run else "there" if there else "no data"
         print(f"{name:14s} {len(corpus.entries):5d} recordings  {state:15s} "
               f"{', '.join(kinds) or 'no tags':26s} {corpus.settings['language']}")  # fmt: skip
     return 0
