@@ -190,6 +190,17 @@ def test_arguments_of_another_kind_are_told(tmp_path, call, match):
         call(path)
 
 
+@pytest.mark.parametrize("name", ["deeplabcut_csv", "bvh", "trc", "vicon_csv"])
+def test_names_in_another_encoding_are_declared(tmp_path, name):
+    old = "LEFT_WRIST" if name == "deeplabcut_csv" else "left_wrist"
+    path, spec, _ = changed(name, tmp_path, swap(old, "händ"))
+    path.write_bytes(path.read_bytes().decode().encode("latin-1"))
+    spec["joints"] = {"left_wrist": "händ"}
+    with pytest.raises(SignkinError, match=r"line \d+: byte 0xe4 is not UTF-8.*encoding: latin-1"):
+        read_recording(path, **spec)
+    assert read_recording(path, encoding="latin-1", **spec).joints == ("left_wrist",)
+
+
 def test_kinect_in_millimetres_is_refused(tmp_path):
     made = SAMPLES["kinect"]
     made.write(tmp_path / "k.txt", motion(12) * 1000)
