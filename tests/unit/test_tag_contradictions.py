@@ -116,6 +116,7 @@ def test_a_row_twice_counts_once_and_is_listed(tmp_path, format, text):
         ("csv", HEAD + "0.1,0.4,A,\n0.5,0.9,B,,\n", [(0.1, 0.4, "A"), (0.5, 0.9, "B")]),
         ("csv", "id,name," + HEAD + "1,x,0,1,A\n2,y,1,2,B\n", [(0, 1, "A"), (1, 2, "B")]),
         ("csv", HEAD + "0,3,A\n3,6,B\n", [(0, 3, "A"), (3, 6, "B")]),
+        ("csv", "Begin Time - ss.msec;end;label\n1;2;A\n", [(1, 2, "A")]),
         ("textgrid", grid((0, 1, "A"), (2, 3.001, "B")), [(0, 1, "A"), (2, 3.001, "B")]),
         ("elan_tab", '"#file:///a.mp4 -- offset: 0"\n' + EXPORT, [(1.5, 2, "A")]),
     ],
@@ -123,4 +124,5 @@ def test_a_row_twice_counts_once_and_is_listed(tmp_path, format, text):
 def test_what_is_unusual_is_read(tmp_path, format, text, read):
     path = tmp_path / "x"
     path.write_text(text)
-    assert spans(path, format) == read
+    named = {"start_column": "Begin Time - ss.msec", "separator": "semicolon"}
+    assert spans(path, format, **(named if "ss.msec" in text else {})) == read

@@ -151,8 +151,13 @@ def read_vicon_csv(
     width = max(len(head[3][1]), *(place[-1] + 1 for place in columns))
     while width > columns[-1][-1] + 1 and not head[3][1][width - 1]:
         width -= 1
+    sub_frames = head[3][1][1:2] == ["Sub Frame"]
     points = read_markers(
-        _section(rows), _marker_head(labels, columns, width, rate, units), layout, joints, part
+        _section(rows, sub_frames),
+        _marker_head(labels, columns, width, rate, units),
+        layout,
+        joints,
+        part,
     )
     return source_motion(points)
 
@@ -167,13 +172,15 @@ def _marker_head(
     )
 
 
-def _section(rows: Iterator[tuple[int, list[str]]]) -> Iterator[tuple[int, list[str]]]:
+def _section(
+    rows: Iterator[tuple[int, list[str]]], sub_frames: bool
+) -> Iterator[tuple[int, list[str]]]:
     """Yield rows up to the title of the next section; trajectories again are an error."""
     for line, row in rows:
         title = row[0].strip()
         if title and title[0].isalpha() and not any(cell.strip() for cell in row[1:]):
             break
-        if len(row) > 1 and number(row[1].strip()) not in (None, 0):
+        if sub_frames and len(row) > 1 and number(row[1].strip()) not in (None, 0):
             raise SignkinError(
                 f"sub frame {quoted(row[1])}", place=f"line {line}", expected="0: whole frames"
             )
