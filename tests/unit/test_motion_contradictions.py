@@ -79,6 +79,8 @@ def test_what_stands_twice_or_out_of_order(tmp_path, name, change, match):
         ("deeplabcut_csv", named(lambda i: "frame")),
         ("openpose_csv", swap(",0.9\n", ",1.04\n")),
         ("qualisys_tsv", swap("NO_OF_CAMERAS\t8", "NO_OF_CAMERAS\t8\nNO_OF_CAMERAS\t8")),
+        ("qualisys_tsv", swap("DESCRIPTION\t--", "EVENT\tA\t1\t0.0\nEVENT\tB\t9\t0.2")),
+        ("vicon_csv", swap("Frame,Sub Frame,", "Frame,,")),
     ],
 )
 def test_what_is_unusual_is_read(tmp_path, name, change):

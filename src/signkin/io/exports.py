@@ -19,6 +19,8 @@ from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
 from signkin.io.text import number, quoted, text_lines
 
+# Keys of Qualisys that are read; others, such as EVENT, may come again.
+_USED = ("NO_OF_FRAMES", "NO_OF_MARKERS", "FREQUENCY", "DATA_INCLUDED", "MARKER_NAMES")
 # Further down no maker's header goes.
 _LONGEST_HEADER = 60
 
@@ -49,7 +51,7 @@ def read_qualisys_tsv(
         if line > _LONGEST_HEADER:
             raise _no_header("MARKER_NAMES and the frames", line)
         cells = [cell.strip() for cell in row[1:]]
-        if told.setdefault(key.upper(), cells) != cells:
+        if told.setdefault(key.upper(), cells) != cells and key.upper() in _USED:
             raise SignkinError(
                 f"{key} stands twice, with two values", place=f"line {line}", expected="one value"
             )
