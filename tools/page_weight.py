@@ -27,7 +27,7 @@ KINDS = {
     "list of recordings": "report/recordings/*.html",
     "a recording (explorer)": "report/recordings/*/*.html",
 }
-MOST_OF_A_KIND = 12  # the heaviest
+MOST_OF_A_KIND = 4  # the heaviest
 VISITS = 3
 MOST_BYTES = {"a recording (explorer)": 5e6}
 OTHER_BYTES = 3e6
