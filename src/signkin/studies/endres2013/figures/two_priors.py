@@ -12,7 +12,7 @@ from signkin.report.drawn import Drawn
 from signkin.studies.endres2013.figures.points import frame_of, hit_points, order_points, point
 from signkin.studies.endres2013.posteriors import FITTED_MAP
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED
-from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside
+from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside, told_prior
 
 TITLES = {
     "3B": "3B  orders of refound order 3 (paper: 3)",
@@ -76,14 +76,16 @@ def _one_legend(figure: Figure) -> None:
         legend.remove()
     if legends:
         handles = [h for h in legends[0].legend_handles if h is not None]
-        labels = [text.get_text() for text in legends[0].get_texts()]
+        labels = [told_prior(text.get_text()) for text in legends[0].get_texts()]
         legends[0].remove()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+        figure.legend(handles, labels, loc="outside lower center", ncols=1)
 
 
 def caption(table: pd.DataFrame) -> str:
     """Return what stands below the figure."""
-    priors = " and ".join(f"“{prior}”" for prior in dict.fromkeys(table["prior"]))
+    priors = " and under ".join(
+        f"{told_prior(prior)} (`{prior}`)" for prior in dict.fromkeys(table["prior"])
+    )
     told = "; ".join(
         f"{row.what}: {row[4] or 'none'} and {row[5] or 'none'} (paper: {row.printed})"
         for row in printed_beside(table).itertuples()
