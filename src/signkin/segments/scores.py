@@ -87,7 +87,7 @@ def score(
     rows = []
     for key, value in found.items():
         chance = np.array([d[key] for d in drawn])
-        rows.append([key[0], key[1], value, key[2], *_interval(chance)])
+        rows.append([key[0], key[1], value, key[2], *interval_of(chance)])
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -145,7 +145,8 @@ def _median(values: Floats) -> float:
     return float(np.median(there)) if len(there) else float("nan")
 
 
-def _interval(draws: Floats) -> tuple[float, float, float]:
+def interval_of(draws: Floats) -> tuple[float, float, float]:
+    """Return mean, 2.5 % and 97.5 % quantile of what chance gave; NaN without draws."""
     there = draws[np.isfinite(draws)]
     if not len(there):
         return float("nan"), float("nan"), float("nan")
