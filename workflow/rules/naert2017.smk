@@ -96,6 +96,7 @@ rule naert_figures:
     """Figures 4 to 10, with the numbers drawn in them."""
     input:
         boundaries=rules.naert_tables.output.boundaries,
+        posteriors=rules.naert_tables.output.posteriors,
         sign_types=rules.naert_tables.output.sign_types,
         transitions=rules.naert_tables.output.transitions,
         minima=rules.gather.output.minima,
@@ -107,6 +108,7 @@ rule naert_figures:
             of_groups(NAERT_EXHIBITS, "figures"), "<results>/naert2017/{corpus}"
         ),
         diamond="<results>/naert2017/{corpus}/diamond.csv",
+        posterior=multiext("<results>/naert2017/{corpus}/fig_posterior", ".svg", ".pdf"),
         captions="<results>/naert2017/{corpus}/captions.json",
     log:
         "<logs>/naert2017/{corpus}/figures.log",
