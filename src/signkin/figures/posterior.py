@@ -28,7 +28,9 @@ def plot_posterior(
     for row in rows.itertuples():
         ax.axvspan(row.low90_s, row.high90_s, color=colour, alpha=BAND_90, lw=0)
         ax.axvspan(row.low50_s, row.high50_s, color=colour, alpha=BAND_50, lw=0)
-        ax.axvline(row.mean_s, color=colour, lw=1.0, ls="-" if row.edge == "start" else "--")
+        ax.axvline(
+            row.mean_s, 0, 0.9, color=colour, lw=1.0, ls="-" if row.edge == "start" else "--"
+        )
     top = float(curve[column].max()) * 1.25 if len(curve) else 1.0
     for row in points[points["kind"] == "tag"].itertuples():
         ax.axvline(row.time_s, 0, 0.9, color=MANUAL, lw=1.3,
@@ -51,7 +53,7 @@ def handles() -> list[Line2D | Patch]:
         Line2D([], [], color="0.25", lw=1.1, label="speed"),
         Line2D([], [], color=MANUAL, lw=1.3, label="manual tag: start"),
         Line2D([], [], color=MANUAL, lw=1.3, ls="--", label="manual tag: end"),
-        Line2D([], [], color="0.35", lw=1.0, label="most likely place (mean)"),
+        Line2D([], [], color="0.35", lw=1.0, label="boundary, on average"),
         Patch(color="0.35", alpha=BAND_50, lw=0, label="boundary here: 50 %"),
         Patch(color="0.35", alpha=BAND_90, lw=0, label="boundary here: 90 %"),
     ]

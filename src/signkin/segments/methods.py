@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from signkin.segments.boundaries import boundary_hits, offsets_s
 from signkin.segments.frames import RATE_HZ, boundary_f1, frame_labels, mean_f1, segment_f1
+from signkin.segments.gamma import DISORDER, disorder, gamma_of
 from signkin.segments.lengths import covering, overlap, share_of_segments
 from signkin.segments.scores import COLUMNS, Key, interval_of, shuffled
 
@@ -36,18 +37,23 @@ class Part:
         return float(self.reference.min() - MARGIN_S), float(self.reference.max() + MARGIN_S)
 
 
-def score_methods(parts: Sequence[Part], draws: int, rng: np.random.Generator) -> pd.DataFrame:
+def score_methods(
+    parts: Sequence[Part], draws: int, rng: np.random.Generator, *, gamma: bool = False
+) -> pd.DataFrame:
     """Score what was found in several recordings, all on one clock; columns as `score` has them.
 
     Recordings stand one behind the other, so each counts by what is in it. Times of boundaries
     are scored by how near they lie to any edge; segments by what they enclose, too. Chance: the
     same gaps and lengths in another order within each recording. Parts without a tag are left out.
+    gamma: told, too, of segments (it takes longer than all others together).
     """
     kept = [_within(part) for part in parts if len(part.reference)]
     if not kept:
         return pd.DataFrame(columns=COLUMNS)
-    found = _scores(kept, lambda part: part.found)
-    drawn = [_scores(kept, lambda part: _in_another_order(part, rng)) for _ in range(draws)]
+    found = _scores(kept, lambda part: part.found, gamma)
+    drawn = [_scores(kept, lambda part: _in_another_order(part, rng), gamma) for _ in range(draws)]
+    if gamma:
+        found, drawn = gamma_of(found, drawn)
     rows = [
         [*key[:2], value, key[2], *interval_of(np.array([d[key] for d in drawn]))]
         for key, value in found.items()
@@ -74,7 +80,7 @@ def _in_another_order(part: Part, rng: np.random.Generator) -> Floats:
     return np.asarray(low + np.cumsum(rng.permutation(gaps))[:-1])
 
 
-def _scores(parts: Sequence[Part], of: Callable[[Part], Floats]) -> dict[Key, float]:
+def _scores(parts: Sequence[Part], of: Callable[[Part], Floats], gamma: bool) -> dict[Key, float]:
     clock, found, reference = 0.0, [], []
     for part in parts:
         low, high = part.span_s
@@ -83,7 +89,11 @@ def _scores(parts: Sequence[Part], of: Callable[[Part], Floats]) -> dict[Key, fl
         clock += high - low
     a, b = np.concatenate(found), np.concatenate(reference)
     out = _of_boundaries(np.unique(a), np.unique(b))
-    return out if a.ndim == 1 else out | _of_segments(a, b, (0.0, clock))
+    if a.ndim == 1:
+        return out
+    if gamma:
+        out[DISORDER] = disorder(a, b)
+    return out | _of_segments(a, b, (0.0, clock))
 
 
 def _of_boundaries(a: Floats, b: Floats) -> dict[Key, float]:

@@ -78,7 +78,7 @@ def _scores(
         for side in signs
     )  # fmt: skip
     parts = [Part(first[name], second[name]) for name in first if name in second]
-    rows = score_methods(parts, DRAWS, rng)
+    rows = score_methods(parts, DRAWS, rng, gamma=True)
     if rows.empty:
         rows = pd.DataFrame([{"note": "no recording that both tagged"}])
     rows = rows.assign(corpus=corpus, first=names[0], second=names[1])
