@@ -26,6 +26,7 @@ from signkin.coarticulation.tag_model import (
     posterior,
 )
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
 OFF_S = 0.1  # a tag further than this from its boundary is off
@@ -176,7 +177,7 @@ def _checked(
     intervals_s: ArrayLike, minima_s: ArrayLike, prominence: ArrayLike | None
 ) -> tuple[Floats, Floats, NDArray[np.int64]]:
     """Return tags (N, 2), NaN where masked, minima in order and their classes of depth."""
-    given: Floats = np.ma.filled(np.ma.asarray(intervals_s, dtype=float), np.nan)
+    given: Floats = unmasked(intervals_s)
     tags = given.reshape(-1, 2)
     minima = np.asarray(minima_s, dtype=float).ravel()
     depth = np.zeros(len(minima)) if prominence is None else np.asarray(prominence, dtype=float)

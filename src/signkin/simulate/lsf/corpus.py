@@ -51,10 +51,12 @@ def simulate(
     mean_error_s: float,
     euclidean_unit_m: float,
     rng: np.random.Generator,
+    parts: int | None = None,
 ) -> SimulatedCorpus:
     """Simulate the corpus.
 
-    names: of the recordings. lexicon: gloss -> two digits. table2: the printed table, all
+    names: of the recordings. parts: how many recordings the design is cut into, of which the first
+    have names; None: as many as names. lexicon: gloss -> two digits. table2: the printed table, all
     text. theta (3,), mean_error_s: the printed surface and its mean error, for geodesic
     distances in radians and Euclidean ones in `euclidean_unit_m`.
     """
@@ -62,7 +64,7 @@ def simulate(
     body = Body()
     utterances = utterances_of(designed, lexicon, rng)
     order = rng.permutation(len(utterances))
-    groups = np.array_split(order, len(names))
+    groups = np.array_split(order, parts or len(names))[: len(names)]
     recordings, truth, design_rows = [], [], []
     for name, group in zip(names, groups, strict=True):
         chosen = [utterances[i] for i in sorted(group)]
