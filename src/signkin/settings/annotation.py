@@ -43,6 +43,22 @@ class SignTiers(Section):
         return self
 
 
+class Annotator(Section):
+    """Where a further annotator's signs are; one of the two keys at least."""
+
+    file: Text | None = key(
+        None, "Annotation file, with `{recording}`, `{part}` or `{signer}`; the recording's own "
+        "if missing.",
+    )  # fmt: skip
+    tier: Tier | None = key(None, "Tier of this annotator's signs; sign_tier if missing.")
+
+    @model_validator(mode="after")
+    def _one_at_least(self) -> Annotator:
+        if self.file is None and self.tier is None:
+            raise ValueError("file or tier, or both")
+        return self
+
+
 class Gloss(Section):
     """How glosses are made from labels; the label as written is kept beside."""
 
@@ -166,6 +182,10 @@ class Annotation(Section):
         None, "A pause longer than this ends an utterance (where no tier tells).", unit="s"
     )
     translation_tier: Tier | None = key(None, "Tier with translations, for Table 1.")
+    annotators: dict[Text, Annotator] = key(
+        {}, "Further annotators of the same signing, by name; the page of the corpus shows how far "
+        "they agree.",
+    )  # fmt: skip
     gloss: Gloss | None = key(None, "Rules for glosses.")
     options: dict[str, Any] = key(
         {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."
