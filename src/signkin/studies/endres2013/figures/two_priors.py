@@ -89,9 +89,10 @@ def caption(table: pd.DataFrame) -> str:
     told = "; ".join(
         f"{row.what}: {row[4] or 'none'} and {row[5] or 'none'} (paper: {row.printed})"
         for row in printed_beside(table).itertuples()
+        if "peak" in row.what  # the others stand in the table
     )
     n = int(table.loc[table["dataset"] == RECORDED, "n"].max())
     return (
         f"Fig. 3 to 7 on {n} recordings under {priors}, in this order; trajectories of order "
-        f"{FITTED_ORDER} are the most probable ones. Lines: the paper's order. {told}."
+        f"{FITTED_ORDER} are the most probable ones. Red lines: the paper's order. {told}."
     )
