@@ -10,11 +10,10 @@ import pandas as pd
 from signkin import seeds, tables
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
-from signkin.joints import HANDS
 from signkin.settings.sections import Refinement
 from signkin.statistics import nulls
 from signkin.statistics.multiplicity import holm_of
-from signkin.studies.naert2017.tagged import intervals_of
+from signkin.studies.naert2017.tagged import hands_tagged, signs_of_hand
 
 ALL, TRANSITION = "all", "transition"
 
@@ -30,16 +29,17 @@ def tag_chance(
 ) -> pd.DataFrame:
     """Return the table `tag_chance`: manual tags of a corpus against each null, by hand.
 
+    Each hand's tags against its own minima: a tier of one hand alone tells nothing of the other.
     about: the table `recordings`. names: of the recordings with tags, in their order.
     """
     rates = about.set_index("recording")["rate_hz"]
     windows = sorted({*nulls.WINDOWS_S, settings.search_window_s})
     signed = list(names)
     parts = []
-    for hand in HANDS:
+    for hand in hands_tagged(corpus):
         found: list[nulls.Stretch] = []
         for name in signed:
-            signs = [(s.start_s, s.end_s) for s in intervals_of(intervals, name, "sign")]
+            signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, intervals, name, hand)]
             chosen = (minima["recording"] == name) & (minima["hand"] == hand)
             found += nulls.stretches(
                 np.array(signs).reshape(-1, 2),
