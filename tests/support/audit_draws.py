@@ -323,6 +323,27 @@ def effect_size(rng):
 
 
 @draw
+def effect_conversion(rng):
+    a, b = (rng.normal(rng.normal(), 1, int(rng.integers(4, 40))) for _ in "ab")
+    n, both = [len(a), len(b)], np.concatenate([a, b])
+    spread = np.sqrt(((n[0] - 1) * a.var(ddof=1) + (n[1] - 1) * b.var(ddof=1)) / (sum(n) - 2))
+    d, r = (a.mean() - b.mean()) / spread, np.corrcoef(both, np.arange(len(both)) < n[0])[0, 1]
+    eta2 = 1 - (a.var() * len(a) + b.var() * len(b)) / (both.var() * len(both))
+    f, pi3 = np.sqrt(eta2 / (1 - eta2)), np.pi / np.sqrt(3)
+    sizes = {"d": d, "r": r, "eta2": eta2, "f": f, "fisher_z": np.arctanh(r),
+             "g": d * (1 - 3 / (4 * (sum(n) - 2) - 1)), "cles": stats.norm.cdf(d / np.sqrt(2)),
+             "f2": eta2 / (1 - eta2), "log_odds": d * pi3,
+             "odds_ratio": np.exp(d * (pi3 if rng.random() < 0.5 else 1.65))}  # fmt: skip
+    first, other = rng.choice(sorted(sizes), 2, replace=False)
+    if {first, other} == {"log_odds", "odds_ratio"}:
+        sizes["odds_ratio"] = np.exp(sizes["log_odds"])
+    sign = -1 if rng.random() < 0.3 and "odds_ratio" not in (first, other) else 1
+    value = sizes[other] * (sign if other in ("d", "g", "r", "log_odds", "fisher_z") else 1)
+    return {"effect": str(first), "value": put(rng, sizes[first], 2), "to": str(other),
+            "equals": put(rng, value, 2), "n": [str(x) for x in n]}, ""  # fmt: skip
+
+
+@draw
 def standard_error(rng):
     n, sd = int(rng.integers(2, 300)), rng.uniform(0.1, 20)
     places = int(rng.integers(1, 4))

@@ -76,14 +76,14 @@ def prepare(folder: Path, **changes: object) -> Path:
     return folder
 
 
-def run(folder: Path, *extra: str, data: Path | None = None) -> Run:
-    return signkin("run", *extra, folder=folder, data=data)
+def run(folder: Path, *extra: str, data: Path | None = None, timeout: float = 600) -> Run:
+    return signkin("run", *extra, folder=folder, data=data, timeout=timeout)
 
 
-def signkin(*words: str, folder: Path, data: Path | None = None) -> Run:
+def signkin(*words: str, folder: Path, data: Path | None = None, timeout: float = 600) -> Run:
     done = subprocess.run(
         [sys.executable, "-m", "signkin", *words], cwd=folder, env=environment(data), text=True,
-        timeout=600, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+        timeout=timeout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
     )  # fmt: skip
     return Run(folder, done.returncode, done.stdout)
 

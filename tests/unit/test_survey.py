@@ -257,12 +257,22 @@ def test_a_folder_becomes_a_corpus_that_can_be_checked(tmp_path, capsys):
     )  # fmt: skip
     assert corpus.settings["annotation"]["sign_tier"] == "glosses"
     assert corpus.noise_sd == pytest.approx(0.0005, rel=0.2)
+    signs = into / "signs.csv"
+    rows = signs.read_text().splitlines()
+    assert rows[0] == "gloss,hands,symmetric,source"
+    assert rows[1:] == [f"G{i},,,ASK: its type? glosses: 1" for i in range(len(tags_of(stops)))]
+    assert corpus.signs == () and f"types of {len(rows) - 1} glosses" in said
     out = tmp_path / "out"
     check = ["corpus", "check", str(into), "--data", str(folder.parent), "--out", str(out)]
     assert main(check) == 0
     assert (out / "index.html").stat().st_size > 1000
     assert main(["corpus", "init", str(folder), "--into", str(into)]) == 1
     assert "it is there already" in capsys.readouterr().err
+    signs.write_text("gloss,hands,symmetric\nG0,0,0\n")
+    (into / "corpus.yaml").unlink()
+    assert main(["corpus", "init", str(folder), "--into", str(into)]) == 0
+    assert "signs.csv" not in capsys.readouterr().out
+    assert load_corpus(into).lexicon == {"G0": "00"}
 
 
 def test_a_folder_without_motion_is_told(tmp_path, capsys):

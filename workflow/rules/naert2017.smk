@@ -179,6 +179,7 @@ rule synthesis:
     output:
         synthesis="<results>/naert2017/{corpus}/synthesis/synthesis.csv",
         synthesis_summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
+        readings_synthesis="<results>/naert2017/{corpus}/synthesis/readings_synthesis.csv",
     log:
         "<logs>/naert2017/{corpus}/synthesis.log",
     params:

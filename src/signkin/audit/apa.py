@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 _NUM = r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d+(?:\.\d+)?|\.\d+)"
 _SIGNED = rf"[-\u2212\u2013\u2012]?\s?{_NUM}"
+_SUB = r"(?P<sub>\d{1,4}(?:\.\d+)?(?:,\s?\d{1,4}(?:\.\d+)?)?)"  # t38 = 2.1: df below the line
 _DF = (
     rf"\s?[(\[]\s*(?P<df>{_NUM}(?:\s*[,;]\s*{_NUM})?)\s*"
     rf"(?:[,;]\s*[Nn]\s*=\s*(?P<n>{_NUM}))?\s*[)\]]"
@@ -22,20 +23,32 @@ _KIND = (
     r"(?:\^?\s?2|\u00b2|square[d]?)|(?<![\w.,;=]\s)(?<![\w.,])2(?=\s?\()))"  # a lost chi
 )
 _SCI = r"(?:[eE][-+\u2212]?\d+|\s?[x×*·]\s?10\s?\^?\s?[-\u2212\u2013]?\s?\d+)?"
+_TAILS = r"(?:one|two|1|2)[- ]?(?:tailed|sided)"
 _P = (
-    rf"(?P<p>n\.?\s?s\.?|[pP](?:[- ]value)?\s?(?:[<>=≤≥]\s?=?|\bis\b)\s?{_NUM}{_SCI}"
+    rf"(?P<p>n\.?\s?s\.?|(?:{_TAILS}\s)?[pP](?:[- ]values?)?\s?(?:\(?{_TAILS}\)?\s?)?"
+    rf"(?:[<>=≤≥]\s?=?|\bis\b)\s?(?:10\s?\^?\s?[-\u2212\u2013]\s?\d+|{_NUM}{_SCI})"
     r"|[pP]\s?=?\s?n\.?\s?s\.?)"
 )
-_BETWEEN = (  # an effect size or two may stand before the p
+_BETWEEN = (  # its df, an effect size or two and an interval may stand before the p
+    rf"(?:\s?[,;]\s?(?:df|d\.f\.|DF)\s?=\s?(?P<told>{_NUM}(?:\s?[,;/]\s?{_NUM}(?=\s?[,;]))?))?"
     r"(?:\s?[,;]|\s)\s?\(?"
-    r"(?:[A-Za-z\u03b7\u03c9\u03b2²_ ]{0,24}\s?=\s?[-\u2212]?\d*\.?\d+\s?[,;]\s?){0,3}"
+    r"(?:(?:[^\W\d][^=<>()\[\],;]{0,24})?\s?=\s?[-\u2212\u2013]?\s?(?:\d{1,3}(?:,\d{3})+|\d*)(?:\.?\d+)"
+    r"\s?%?\s?[,;]\s?|\d\d(?:\.\d)?\s?%\s?CI\s?[:=]?\s?[\[(][^\])]{3,40}[\])]\s?[,;]\s?){0,4}"
 )
 STATISTIC = re.compile(
-    rf"{_KIND}(?:{_DF})?\s?(?P<sign>[=<>])\s?(?P<value>{_SIGNED})(?P<between>{_BETWEEN}){_P}"
+    rf"{_KIND}(?:{_DF}|(?<=[tF]){_SUB})?\s?(?P<sign>[=<>])\s?(?P<value>{_SIGNED})"
+    rf"(?P<between>{_BETWEEN}){_P}(?P<after>\s?[(,]?\s?{_TAILS})?"
 )
 # A letter, perhaps degrees of freedom, and a sign: perhaps a statistic that was not read.
 _LOOKS = re.compile(
-    r"(?<![A-Za-z])(?:[tFrzQHUW]|χ\s?[2²])\s?(?:[(\[][^()\[\]\n]{1,24}[)\]])?\s?[=<>]\s?[-\u2212]?[\d.]+"
+    r"(?<![A-Za-z])(?:(?:[tFrzQHUW]|χ\s?[2²])\s?(?:[(\[][^()\[\]\n]{1,24}[)\]])?"
+    r"|[tF]\s?\d{1,4}(?:,\s?\d{1,4})?|(?:r_?s|[A-Za-zχρτ][\w²'\u2019]{0,9})"
+    r"\s?[(\[]\s?\d[\d., ]*[)\]]|(?:r_?s|[ρτ]))\s?[=<>]\s?[-\u2212]?[\d.]+"
+)
+_COMMA = re.compile(r"[=<>]\s?[-\u2212\u2013]?\d*,\d(?!\d\d[.,]\d)")
+_POINT = re.compile(r"[=<>]\s?[-\u2212\u2013]?\d*\.\d")
+_SIGN_OF_COMMA = re.compile(
+    r"(?P<kept>[Fχ2²]\s?[(\[]\s?\d+,\d+\s?[)\]])|(?<=\d),(?=\d)|(?<![\w,.]),(?=\d)"
 )
 _WITHOUT = {"t": 1, "F": 2, "r": 1, "chi2": 1, "H": 1, "Q": 1, "z": 0}
 MOST_TEXT = 5_000_000
@@ -52,6 +65,8 @@ class FoundStatistic:
     raw: str
     line: int
     column: int
+    tails: str = ""  # `one` or `two`, where it stands beside the p
+    note: str = ""  # what was taken for what
 
     @property
     def place(self) -> str:
@@ -87,6 +102,16 @@ def statistics_in(text: str) -> tuple[list[FoundStatistic], list[NotRead]]:
     return found, sorted(missed, key=lambda m: m.line)
 
 
+def with_points(text: str) -> tuple[str, bool]:
+    """Return a text with decimal points where all its numbers have commas, and whether it has.
+
+    No sign is added or taken away, so that places stay.
+    """
+    if len(_COMMA.findall(text)) == 0 or _POINT.search(text):
+        return text, False
+    return _SIGN_OF_COMMA.sub(lambda m: m["kept"] or ".", text), True
+
+
 def _left_over(flat: str, text: str, taken: list[tuple[int, int]]) -> Iterator[NotRead]:
     at = 0
     for match in _LOOKS.finditer(flat):
@@ -95,7 +120,10 @@ def _left_over(flat: str, text: str, taken: list[tuple[int, int]]) -> Iterator[N
         if at < len(taken) and taken[at][0] <= match.start():
             continue
         line = text.count("\n", 0, match.start()) + 1
-        yield NotRead(match[0].strip(), line, "no p stands behind it in a form that is read")
+        why = "no p stands behind it in a form that is read"
+        if not re.match(r"(?:[tFrzQHUW]|χ\s?[2²])(?![A-Za-z_])", match[0]):
+            why = "a statistic of another kind than F, t, chi-squared, z, r, H and Q"
+        yield NotRead(match[0].strip(), line, why)
 
 
 def kind_of(sign: str) -> str:
@@ -112,7 +140,10 @@ def _read(match: re.Match[str], text: str) -> FoundStatistic | NotRead:
     column = match.start() - (text.rfind("\n", 0, match.start()) + 1) + 1
     kind = kind_of(match["kind"])
     # `10, 200` is two degrees of freedom, `1,200` one number only where the kind wants one.
-    df = _numbers(match["df"] or "", _WITHOUT[kind])
+    df = _numbers(match["df"] or match["sub"] or match["told"] or "", _WITHOUT[kind])
+    note = ""
+    if kind == "r" and not df and (size := re.search(r"(?<![A-Za-z])[nN]\s?=\s?(\d+)", raw)):
+        df, note = (str(int(size[1]) - 2),), "df is n - 2, as of a plain correlation"
     if kind == "F" and len(df) == 1:
         return NotRead(raw, line, "F has one number of degrees of freedom, and wants two")
     if kind in ("chi2", "Q", "H") and len(df) == 2:  # (1, 52): the number of people, without N =
@@ -123,7 +154,13 @@ def _read(match: re.Match[str], text: str) -> FoundStatistic | NotRead:
         return NotRead(raw, line, f"{kind} has {len(df)} degrees of freedom")
     value = plain(match["value"])
     sign = match["sign"] if match["sign"] != "=" else ""
-    return FoundStatistic(kind, df, sign + value, p_text(match["p"]), raw, line, column)
+    beside = re.search(
+        r"(one|1|two|2)[- ]?(?:tailed|sided)", f"{match['p']} {match['after'] or ''}"
+    )
+    tails = {"1": "one", "2": "two"}.get(beside[1], beside[1]) if beside else ""
+    return FoundStatistic(
+        kind, df, sign + value, p_text(match["p"]), raw, line, column, tails, note
+    )
 
 
 def _numbers(text: str, wanted: int) -> tuple[str, ...]:
@@ -144,10 +181,11 @@ def plain(text: str) -> str:
 
 def p_text(text: str) -> str:
     """Return a p as `.03`, `<.001` or `ns`."""
-    bare = re.sub(r"^[pP](?:[- ]value)?\s?", "", text.strip())
+    bare = re.sub(rf"\(?{_TAILS}\)?\s?", "", text.strip())
+    bare = re.sub(r"^[pP](?:[- ]values?)?\s?", "", bare)
     if re.match(r"=?\s?n", bare):
         return "ns"
     bare = re.sub(r"^(=|is)\s?", "", bare).replace("\u2212", "-").replace("\u2013", "-")
     bare = re.sub(r"\s", "", bare)
-    power = re.fullmatch(r"([<>≤≥]?=?[\d.,]+)[x×*·]10\^?(-?\d+)", bare)
-    return f"{power[1]}e{power[2]}" if power else bare
+    power = re.fullmatch(r"([<>≤≥]?=?)(?:([\d.,]+)[x×*·])?10\^?(-\d+)", bare)
+    return f"{power[1]}{power[2] or 1}e{power[3]}" if power else bare

@@ -1,82 +1,116 @@
-"""Claims drafted from a table with columns of n, mean, and SD or standard error."""
+"""Claims drafted from a table: n, means and SDs in whatever shape, tests, regressions, counts."""
 
 from __future__ import annotations
 
 import csv
 import json
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from signkin.audit.drafts import Draft
-from signkin.audit.rounding import is_number
+from signkin.audit.table_claims import add_others
+from signkin.audit.table_shapes import Shape, merged_headers, shape_of
+from signkin.audit.table_words import decimal_commas, is_numeric, pair_of, role_of, tidy
 from signkin.errors import listed
 
-N_NAMES = ("n", "number", "count", "participants", "subjects", "size")
-MEAN_NAMES = ("mean", "m", "average", "avg")
-SD_NAMES = ("sd", "s.d.", "std", "stdev", "standarddeviation", "std.dev.")
-SE_NAMES = ("se", "s.e.", "sem", "standarderror", "std.error", "std.err.")
-BOTH = re.compile(r"\s*([-\u2212]?[\d.]+)\s*(?:\(\s*([\d.]+)\s*\)|±\s*([\d.]+))\s*")
-
-
-def is_header(cells: Sequence[str]) -> bool:
-    """Whether cells of a line name columns of n and of means."""
-    roles = {role for role, names in _ROLES for cell in cells if _bare(cell) in names}
-    both = any(_bare(part) in MEAN_NAMES for cell in cells for part in re.split(r"[(±]", cell)[:1])
-    return "n" in roles and ("mean" in roles or both)
-
-
-_ROLES = (("n", N_NAMES), ("mean", MEAN_NAMES), ("sd", SD_NAMES), ("se", SE_NAMES))
-
-
-def _bare(text: str) -> str:
-    return re.sub(r"[\s_]", "", text.lower())
+ORDER = ("n", "mean", "value", "sd", "se", "in_brackets", "low", "high")
+_PLAIN = ("n", "mean", "sd", "se")
 
 
 def from_table(text: str, file: Path) -> Draft:
-    """Return claims about a table with n and mean, and an SD or standard error."""
+    """Return claims about a table of a file."""
     try:
         sniffed = csv.Sniffer().sniff(text[:4000], delimiters=",;\t")
         rows = list(csv.reader(text.splitlines(), sniffed))
     except csv.Error:
         rows = list(csv.reader(text.splitlines()))
-    rows = [[cell.strip() for cell in row] for row in rows if any(cell.strip() for cell in row)]
     draft = Draft()
-    if len(rows) < 2:
+    rows = [[cell.strip() for cell in row] for row in rows]
+    kept = [(i, row) for i, row in enumerate(rows, 1) if any(row)]
+    if len(kept) > 2 and sum(bool(c) for c in kept[0][1]) == 1 < len(kept[1][1]):
+        kept = kept[1:]  # a title above the header
+    if len(kept) < 2:
         draft.not_understood.append(f"{file.name}: a table without rows")
         return draft
-    return from_rows(rows[0], rows[1:], file, draft)
-
-
-def from_rows(
-    header: list[str], body: list[list[str]], file: Path, draft: Draft, place: str = ""
-) -> Draft:
-    """Add the claims about a table to a draft; place: where it stands in a text."""
-    told = f"{place}: the table" if place else file.name
-    ragged = [i for i, row in enumerate(body, 2) if len(row) != len(header)]
+    width = Counter(len(row) for _, row in kept).most_common(1)[0][0]
+    ragged = [i for i, row in kept if len(row) != width]
+    if len(kept[0][1]) != width and len(kept) == 2:
+        ragged = [kept[1][0]]
     if ragged:
         draft.not_understood.append(
-            f"{told}, row {listed(ragged)}: more or fewer cells than the header; left out"
+            f"{file.name}, row {listed(ragged)}: more or fewer cells than the other rows; left out"
         )
-        body = [row for row in body if len(row) == len(header)]
-    header, body = _taken_apart(header, body)
-    roles = _roles(header, draft, told)
-    if "n" not in roles or "mean" not in roles:
-        lacking = "n" if "n" not in roles else "means"
-        draft.not_understood.append(f"{told}: no column of {lacking} among {listed(header)}")
+        kept = [(i, row) for i, row in kept if i not in ragged]
+    if len(kept) < 2:
+        draft.not_understood.append(f"{file.name}: a table without rows")
+        return draft
+    return from_rows([row for _, row in kept], file, draft)
+
+
+def from_rows(rows: list[list[str]], file: Path, draft: Draft, place: str = "") -> Draft:
+    """Add the claims about a table to a draft; place: where it stands in a text.
+
+    rows: those of the header first.
+    """
+    told = f"{place}: the table" if place else file.name
+    rows = _points(rows, draft, told)
+    header, body = merged_headers(rows)
+    if not body:
+        draft.not_understood.append(f"{told}: no row has numbers")
         return draft
     stem = re.sub(r"[^A-Za-z0-9._-]+", "-", file.stem)
-    name = f"{stem}-table{len(draft.tables) + 1}.csv" if place else f"{stem}.csv"
-    of = "n, mean and SD" if "sd" in roles else "n and mean"
-    claim = f"{of[0].upper()}{of[1:]} of {len(body)} row{'s' if len(body) > 1 else ''}."
-    draft.add("T", place or name, claim, _table_claim(name, roles, header, body))
-    draft.tables[name] = "\n".join(",".join(_quoted(row)) for row in [header, *body]) + "\n"
+    number = draft.numbers["table"] = draft.numbers.get("table", 0) + bool(place)
+    name = f"{stem}-table{number}" if place else stem
+    before = len(draft.claims)
+    header_, body_ = _taken_apart(header, body)
+    roles = _simple_roles(header_)
+    shape = shape_of(header, body)
+    if roles is not None:
+        claim = _sentence(roles, len(body_))
+        draft.add("T", place or f"{name}.csv", claim, _table_claim(
+            f"{name}.csv", roles, _unread(header_, body_, roles)))  # fmt: skip
+        draft.tables[f"{name}.csv"] = as_csv([header_, *body_])
+    else:
+        _from_shape(shape, f"{name}.csv", draft, told, place)
+    add_others(shape, header, body, name, draft, place, told)
+    if len(draft.claims) == before:
+        draft.not_understood.append(
+            f"{told}: no n with means, no test with its df and p among {listed(_named(header), 30)}"
+        )
     return draft
+
+
+def _named(header: Sequence[str]) -> list[str]:
+    return [name for name in header if name]
+
+
+def as_csv(rows: Iterable[Sequence[str]]) -> str:
+    """Return rows as CSV."""
+    return "\n".join(",".join(_quoted(row)) for row in rows) + "\n"
 
 
 def _quoted(row: Iterable[str]) -> Iterator[str]:
     for cell in row:
-        yield f'"{cell}"' if set(cell) & set(',"\n') else cell
+        yield '"' + cell.replace('"', '""') + '"' if set(cell) & set(',"\n') else cell
+
+
+def _points(rows: list[list[str]], draft: Draft, told: str) -> list[list[str]]:
+    """Write decimal commas as points where all of a table has commas; tell it."""
+    commas, points = decimal_commas(rows)
+    if not commas:
+        return rows
+    if points:
+        draft.not_understood.append(
+            f"{told}: {commas} numbers with a decimal comma, {points} with a point; left so"
+        )
+        return rows
+    draft.not_understood.append(f"{told}: decimal commas, written as points (no other numbers)")
+    return [
+        [re.sub(r"(?<=\d),(?=\d)|(?<![\d.]),(?=\d)", ".", cell) if is_numeric(cell) else cell
+         for cell in row] for row in rows
+    ]  # fmt: skip
 
 
 def _taken_apart(header: list[str], body: list[list[str]]) -> tuple[list[str], list[list[str]]]:
@@ -86,56 +120,111 @@ def _taken_apart(header: list[str], body: list[list[str]]) -> tuple[list[str], l
     for i, name in enumerate(header):
         cells = [row[i] for row in body]
         filled = [cell for cell in cells if cell]
-        if filled and all(BOTH.fullmatch(cell) for cell in filled):
-            first, _, second = re.sub(r"[()±,/]", " ", name).strip().partition(" ")
+        if filled and all(pair_of(cell) for cell in filled):
+            first, _, second = re.sub(r"[()\[\]±,/]", " ", name).strip().partition(" ")
             out_head += [first or "mean", second.strip() or "in_brackets"]
             for row, cell in zip(out, cells, strict=True):
-                match = BOTH.fullmatch(cell)
-                row += [match[1], match[2] or match[3]] if match else ["", ""]
+                row += pair_of(cell) or ("", "")
         else:
-            out_head.append(name)
+            out_head.append(name or ("row" if not i else ""))
             for row, cell in zip(out, cells, strict=True):
-                row.append(cell)
+                row.append(tidy(cell))
     return out_head, out
 
 
-def _roles(header: Sequence[str], draft: Draft, told: str) -> dict[str, str]:
+def _simple_roles(header: Sequence[str]) -> dict[str, str] | None:
+    """Return role -> column where n and means stand in one column each; None otherwise."""
     roles: dict[str, str] = {}
-    for role, names in _ROLES:
-        fits = [h for h in header if _bare(h) in names]
-        if len(fits) > 1:
-            draft.not_understood.append(f"{told}: {listed(fits)} may each be the {role}")
-        elif fits:
-            roles[role] = fits[0]
-    return roles
+    if len(set(header)) < len(header) or "" in header:
+        return None
+    for name in header:
+        role = role_of(name)
+        if role in roles:
+            return None
+        if role in _PLAIN:
+            roles[role] = name
+    return roles if {"n", "mean"} <= set(roles) else None
 
 
-def _table_claim(
-    name: str, roles: dict[str, str], header: Sequence[str], body: Sequence[Sequence[str]]
-) -> Iterator[str]:
+def _unread(
+    header: Sequence[str], body: Sequence[Sequence[str]], roles: Mapping[str, str]
+) -> list[str]:
+    """Return the columns with numbers that no check reads."""
+    return [
+        name for j, name in enumerate(header)
+        if j and name not in roles.values() and any(is_numeric(row[j]) for row in body if row[j])
+    ]  # fmt: skip
+
+
+def _sentence(roles: Mapping[str, str], rows: int) -> str:
+    of = "n, mean and SD" if "sd" in roles else "n and mean"
+    return f"{of[0].upper()}{of[1:]} of {rows} row{'s' if rows > 1 else ''}."
+
+
+def _from_shape(shape: Shape, name: str, draft: Draft, told: str, place: str) -> None:
+    """Add the claim about a table's means, brought to a row a measure and group."""
+    found = {
+        key: cells for key, cells in shape.cells.items() if {"mean", "value"} & set(cells)
+    }  # fmt: skip
+    if "value" in {r for c in found.values() for r in c} and not any(
+        "in_brackets" in c or "n" in c for c in found.values()
+    ):
+        found = {key: cells for key, cells in found.items() if "mean" in cells}
+    if not found:
+        return
+    there = [role for role in ORDER if role == "n" or any(role in c for c in found.values())]
+    rows = [
+        [", ".join(part for part in key if part) or "all", *(c.get(role, "") for role in there)]
+        for key, c in found.items()
+    ]  # fmt: skip
+    lacking = [row[0] for row in rows if not row[1]]
+    if lacking:
+        draft.not_understood.append(
+            f"{told}: n of {listed(lacking)} does not stand beside it; fill it into {name}"
+        )
+    roles = {role: role for role in there if role in _PLAIN}
+    if "mean" not in roles:
+        roles["mean"] = "value"
+    if "sd" not in roles and "in_brackets" in there:
+        roles["sd"] = "in_brackets"
+    unread = [role for role in there if role in ("value", "in_brackets")]
+    if unread:
+        draft.not_understood.append(
+            f"{told}: what the numbers {'in brackets ' if unread == ['in_brackets'] else ''}are is "
+            f"not told (SDs?); they stand as {listed(unread)}"
+        )
+    if shape.unread:
+        draft.not_understood.append(f"{told}: cells without a number that is read: "
+                                    f"{listed([c[:30] for c in shape.unread], 6)}")  # fmt: skip
+    draft.add("T", place or name, f"Means of {len(rows)} cell{'s' if len(rows) > 1 else ''}, by "
+              "measure and group.", _table_claim(name, roles, unread))  # fmt: skip
+    draft.tables[name] = as_csv([["row", *there], *rows])
+
+
+def _table_claim(name: str, roles: Mapping[str, str], unread: Sequence[str]) -> Iterator[str]:
     named = {role: column for role, column in roles.items() if column != role}
-    extra = "".join(f", {role}: {json.dumps(column)}" for role, column in named.items())
-    plain = "".join(f", {role}: {json.dumps(column)}" for role, column in named.items()
-                    if role in ("n", "mean"))  # fmt: skip
-    unread = [
-        h
-        for h in header
-        if h not in roles.values()
-        and h != header[0]
-        and any(is_number(row[header.index(h)]) for row in body if row[header.index(h)])
-    ]
+
+    def given(*of: str) -> str:
+        return "".join(f", {role}: {json.dumps(named[role])}" for role in of if role in named)
+
     if unread:
         yield f"# ? not looked at: {listed(unread)}; `signkin audit list` tells what can be"
     yield "# ? Do values come in steps (points, frames)? Then add, with the step as grain:"
-    check, own = ("grimmer", extra) if "sd" in roles else ("grim", plain)
+    check, own = ("grim", given("n", "mean"))
+    if "sd" in roles:
+        check, own = "grimmer", given("n", "mean", "sd") + ", divisor: either"
+    elif "se" in roles:
+        check, own = "grimmer", given("n", "mean") + f", sd: {json.dumps(roles['se'])}, spread: se"
     yield f'#   - {{check: {check}, table: {name}, grain: "1"{own}, reads: "Points."}}'
-    yield "# ? On a scale? Then add its ends; `closure` counts the samples that print so:"
-    ends = f'low: "1", high: "7"{extra}'
-    yield f'#   - {{check: scale_bounds, table: {name}, {ends}, reads: "A scale."}}'
+    if "sd" in roles:
+        yield "# ? On a scale? Then add its ends; `closure` counts the samples that print so:"
+    ends = f'low: "1", high: "7"{given("n", "mean", "sd")}'
+    if "sd" in roles:
+        yield f'#   - {{check: scale_bounds, table: {name}, {ends}, reads: "A scale."}}'
     yield "checks:"
     columns = json.dumps(list(roles.values()))
     yield f"  - {{check: rows_twice, table: {name}, columns: {columns},"
     yield '     reads: "No two rows have the same numbers."}'
     if {"sd", "se"} <= set(roles):
-        yield f"  - {{check: standard_error, table: {name}{extra},"
+        yield f"  - {{check: standard_error, table: {name}{given('n', 'sd', 'se')},"
         yield '     reads: "The standard error is the SD over the root of n."}'

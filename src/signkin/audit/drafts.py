@@ -10,10 +10,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from signkin.audit.apa import FoundStatistic, NotRead, statistics_in
+from signkin.audit.apa import FoundStatistic, NotRead, statistics_in, with_points
 from signkin.audit.found_numbers import FoundInterval, FoundMean, intervals_in, means_in
 
 _ONE_TAILED = re.compile(r"one[- ](?:tailed|sided)|directional", re.IGNORECASE)
+_CORRECTED = re.compile(r"Greenhouse|Huynh|[Ss]phericity")
 _SKEWED = re.compile(r"bootstrap|percentile interval|profile likelihood|credible|bayes", re.I)
 
 
@@ -44,6 +45,10 @@ def from_text(text: str, draft: Draft | None = None, page: str = "") -> Draft:
     page: told before each line (`page 3, `). draft: an earlier page's, which is added to.
     """
     draft = draft or Draft()
+    text, commas = with_points(text)
+    if commas:
+        told = "decimal commas, read as points (no number has a point)"
+        draft.not_understood.append(f"{page or 'the text: '}{told}")
     found, missed = statistics_in(text)
     tailed = _ONE_TAILED.search(text)
     asked = "tails: two or one, where the paper says so; else both are tried"
@@ -51,7 +56,9 @@ def from_text(text: str, draft: Draft | None = None, page: str = "") -> Draft:
         line = text.count("\n", 0, tailed.start()) + 1
         asked = f"`{tailed[0]}` stands in {page}line {line}: {asked}"
     for one in found:
-        draft.add("S", f"{page}{one.place}", _quoted(one.raw), _statistic(one, asked))
+        correction = _CORRECTED.search(text)
+        word = correction[0] if correction else ""
+        draft.add("S", f"{page}{one.place}", _quoted(one.raw), _statistic(one, asked, word))
     intervals, without = intervals_in(text)
     skewed = _SKEWED.search(text)
     for each in intervals:
@@ -74,13 +81,18 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _statistic(one: FoundStatistic, asked: str) -> Iterator[str]:
+def _statistic(one: FoundStatistic, asked: str, correction: str) -> Iterator[str]:
     yield "checks:"
-    if one.kind in ("t", "z", "r"):
+    if one.kind == "F" and correction and one.df[0] != "1" and "." not in "".join(one.df):
+        yield f"  # ? `{correction}` stands in the text: is p corrected, df not? Then epsilon: open"
+    if one.kind in ("t", "z", "r") and not one.tails:
         yield f"  # ? {asked}"
+    if one.note:
+        yield f"  # ? {one.note}"
     if one.kind == "H":
         yield '  # ? groups: ["n1", "n2", ...], if they are few: the exact p is tried'
     df = f", df: {json.dumps(list(one.df))}" if one.df else ""
+    df += f", tails: {one.tails}" if one.tails else ""
     yield (f"  - {{check: p_value, kind: {one.kind}, statistic: {json.dumps(one.statistic)}{df}, "
            f"p: {json.dumps(one.p)},")  # fmt: skip
     yield '     reads: "The printed p belongs to the printed statistic."}'

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from signkin.audit.claims_file import MOST_BYTES
-from signkin.audit.draft_tables import from_rows, from_table, is_header
+from signkin.audit.draft_tables import from_rows, from_table
 from signkin.audit.drafts import Draft, from_text
 from signkin.audit.pdf import pages_of
 from signkin.audit.text_tables import tables_in
@@ -72,8 +72,9 @@ def draft_of(file: Path) -> Draft:
 
 
 def _with_tables(draft: Draft, text: str, file: Path, page: str) -> Draft:
-    for table in tables_in(text, is_header):
-        from_rows(table.header, table.rows, file, draft, f"{page}line {table.line}")
+    for table in tables_in(text):
+        draft.not_understood += [f"{page}{line}" for line in table.lost]
+        from_rows(table.rows, file, draft, f"{page}line {table.line}")
     return draft
 
 

@@ -67,6 +67,8 @@ def printed_p(text: str, alpha: str = "0.05") -> PrintedP:
     digits = _POWER.sub(lambda m: f"e{m[1]}".replace("\u2212", "-"), bare).strip()
     if not 0 <= exactly(digits) <= 1:
         raise SignkinError(f"p is {text}", expected="a number from 0 to 1, or < or > one")
+    if sign == "<" and exactly(digits) == 0:  # `< .000`: no p is, and .000 is what was meant
+        sign = "="
     return PrintedP(sign, digits, text.strip())
 
 
@@ -142,6 +144,30 @@ def p_range(
     return one if tails == "one" else Range(1 - one.value, 1 - one.high, 1 - one.low)
 
 
+def p_uncorrected(
+    statistic: str, df: Sequence[Number], rounding: str = "nearest", epsilon: str = "open"
+) -> Range:
+    """Return the p of F whose degrees of freedom are printed without their correction.
+
+    Repeated measures: Greenhouse and Geisser, or Huynh and Feldt, multiply both by epsilon, which
+    lies between 1 / df1 and 1. epsilon: the printed one, or `open`.
+    """
+    _want("F", df)
+    value, low, high = printed_statistic(statistic, rounding)
+    first, second = (float(exactly(str(d))) for d in df)
+    ends = (1 / first, 1.0)
+    if epsilon != "open":
+        given = allowed(epsilon, rounding)
+        if not 0 < exactly(epsilon) <= 1:
+            raise SignkinError(f"epsilon is {epsilon}", expected="a number up to 1, or open")
+        ends = (max(float(given.low), 1 / first), min(float(given.high), 1.0))
+        ends = (min(ends), max(ends))
+    steps = [ends[0] + (ends[1] - ends[0]) * i / 64 for i in range(65)]
+    found = [_sf("F", max(f, 0.0), (e * first, e * second)) for f in (low, high) for e in steps]
+    middle = sum(ends) / 2
+    return Range(_sf("F", value, (middle * first, middle * second)), min(found), max(found))
+
+
 def p_from(kind: str, statistic: str, *df: Number, rounding: str = "nearest") -> Range:
     """Return the (two-sided) p of a printed statistic, with what its rounding allows.
 
@@ -173,20 +199,24 @@ def statistic_from(kind: str, p: str, *df: float, rounding: str = "nearest") -> 
 def p_agrees(
     kind: str, statistic: str, df: Sequence[Number], p: str, alpha: str = "0.05",
     rounding: str = "nearest", tails: str = "open", groups: Sequence[int | str] = (),
+    epsilon: str = "",
 ) -> Finding:  # fmt: skip
     """Say whether a printed p (`0.03`, `<0.001`, `>0.05`, `ns`) belongs to a printed statistic.
 
     The wrong number may be either; where they disagree about alpha the finding says so. What a
     paper leaves open is tried: degrees of freedom printed whole may be rounded (Welch), and with
     tails `open` t, z and r may be one-tailed. groups: the sizes of the groups of a
-    Kruskal-Wallis test, whose exact p (no ties) is then tried, too.
+    Kruskal-Wallis test, whose exact p (no ties) is then tried, too. epsilon: of F in repeated
+    measures whose p is corrected and whose degrees of freedom are not; `open` tries any.
     """
     if tails not in TAILS:
         raise SignkinError(f"tails: {tails!r}", expected=listed(TAILS))
     wanted = printed_p(p, alpha)
     _want(kind, df)
     sides = {"open": ("two", "one", "other"), "two": ("two",), "one": ("one", "other")}[tails]
-    sides = sides if kind in SIGNED else ("two",)
+    # F and chi-squared of one degree of freedom are squares: one-tailed where the paper says so.
+    one = tails == "one" and kind in ("F", "chi2") and float(exactly(str(df[0]))) == 1
+    sides = sides if kind in SIGNED or one else ("two",)
     if tails == "open" and wanted.sign != "=":  # against its prediction any statistic is `ns`
         sides = tuple(side for side in sides if side != "other")
     names = {"two": "two-tailed", "one": "one-tailed", "other": "one-tailed, the other way"}
@@ -194,11 +224,22 @@ def p_agrees(
     readings = []
     for side in sides:
         for rounded in (False, True) if whole else (False,):
-            name = names[side] if kind in SIGNED else "printed"
+            name = names[side] if kind in SIGNED or one else "printed"
             name += " with rounded degrees of freedom" if rounded else ""
             found = partial(p_range, kind, statistic, df, rounding, side, rounded)
             readings.append((name, partial(_compared, kind, statistic, df, wanted, alpha,
                                            rounding, found, name)))  # fmt: skip
+    if kind == "r" and _is_whole(df[0]) and float(df[0]) > 3:  # r(60) of 60 people
+        less = [str(int(float(df[0])) - 2)]
+        found = partial(p_range, kind, statistic, less, rounding, sides[0])
+        name = f"{names[sides[0]]} with n, not df, in brackets"
+        readings.append((name, partial(_compared, kind, statistic, less, wanted, alpha, rounding,
+                                       found, name)))  # fmt: skip
+    if epsilon and kind == "F":
+        found = partial(p_uncorrected, statistic, df, rounding, epsilon)
+        name = "of uncorrected degrees of freedom"
+        readings.append((name, partial(_compared, kind, statistic, df, wanted, alpha, rounding,
+                                       found, name)))  # fmt: skip
     if kind == "H" and groups:
         found = partial(exact_tail, statistic, groups, rounding)
         readings.append(("the exact test", partial(_compared, kind, statistic, df, wanted, alpha,
@@ -228,7 +269,8 @@ def _compared(
     shape = f"{kind}({told}) {equals}" if df else f"{kind} {equals}"
     bare = p.text.lstrip("p ").strip()
     why = f"{shape} has p {found}"
-    why += f", {name}" if "one-tailed" in name or name == "exact" else ""
+    told_of = ("one-tailed", "exact", "n, not df", "uncorrected")
+    why += f", {name}" if any(word in name for word in told_of) else ""
     if fits:
         return Finding(CONSISTENT, why, f"p {bare}", f"{found.value:.6g}", found.interval,
                        settings=f"df {told}" if df else "")  # fmt: skip
@@ -238,6 +280,11 @@ def _compared(
     if p.sign == "=" and kind != "H":
         back = statistic_from(kind, p.digits, *(float(exactly(str(d))) for d in df))
         near += f", or {kind} of {shown(back.low, 4)} to {shown(back.high, 4)}"
+    if kind == "F" and name == "printed" and float(exactly(str(df[0]))) > 1:
+        other = p_uncorrected(statistic, df, rounding)
+        if p.sign == "=" and other.low <= float(value) <= other.high:
+            near += ("; a correction of repeated measures whose degrees of freedom are printed "
+                     "uncorrected could give it (epsilon: open)")  # fmt: skip
     return Finding(
         INCONSISTENT, why, f"p {bare}", f"{found.value:.6g}", found.interval, nearest=near,
         settings=f"df {told}" if df else "", severity=DECISION if differs else DIGITS,

@@ -16,13 +16,17 @@ TINY = 1e-12
 
 @dataclass(frozen=True)
 class TwoGroups:
-    """What two groups give: t, df, p (two-sided), d (pooled SD) and Hedges' g."""
+    """What two groups give: t, df, p (two-sided), d (pooled SD) and Hedges' g.
+
+    others: further standardised differences by their name (Glass's delta, the SDs' mean square).
+    """
 
     t: Range
     df: Range
     p: Range
     d: Range
     g: Range
+    others: tuple[tuple[str, Range], ...] = ()
 
 
 def compare(of: Sequence[Group], equal_variances: bool) -> TwoGroups:
@@ -72,7 +76,15 @@ def compare(of: Sequence[Group], equal_variances: bool) -> TwoGroups:
     d = _over(ends[0], (pooled(ends[1][0], ends[2][0]), pooled(ends[1][1], ends[2][1])), hand[0],
               pooled(*hand[1:]))  # fmt: skip
     by = hedges(a.n + b.n - 2)
-    return TwoGroups(t, degrees, p, d, Range(d.value * by, d.low * by, d.high * by))
+    others = [
+        (f"Glass's delta, SD of group {i}",
+         _over(ends[0], (sqrt(ends[i][0]), sqrt(ends[i][1])), hand[0], sqrt(hand[i])))
+        for i in (1, 2)
+    ]  # fmt: skip
+    mean = [sqrt((v + w) / 2) for v, w in zip(ends[1], ends[2], strict=True)]
+    by_mean = _over(ends[0], (mean[0], mean[1]), hand[0], sqrt(sum(hand[1:]) / 2))
+    others.append(("d with the root of the mean variance", by_mean))
+    return TwoGroups(t, degrees, p, d, Range(d.value * by, d.low * by, d.high * by), tuple(others))
 
 
 def hedges(df: float) -> float:

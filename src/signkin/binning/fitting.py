@@ -16,6 +16,7 @@ from signkin.binning.posterior import Posterior
 from signkin.binning.prior import HIGHEST_ORDER, Prior
 from signkin.binning.segmentation_prior import log_uniform
 from signkin.errors import SignkinError, listed
+from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
 
@@ -166,12 +167,7 @@ def _checked(
 ) -> tuple[Floats, tuple[int, ...]]:
     try:
         x: Floats  # a copy: the caller may go on with his own
-        if np.ma.isMaskedArray(X):
-            x = np.array(
-                np.ma.filled(np.ma.asarray(X, dtype=float), np.nan), dtype=float, order="C"
-            )
-        else:
-            x = np.array(X, dtype=float, order="C")
+        x = np.array(unmasked(X), dtype=float, order="C")
     except (TypeError, ValueError) as error:
         raise SignkinError(
             f"the data are not an array of numbers ({error})",

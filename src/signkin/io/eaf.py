@@ -18,11 +18,12 @@ from urllib.parse import unquote
 
 from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
-from signkin.io.collecting import Collected, TierName, choose_tiers, composed
+from signkin.io.collecting import Collected, TierName, choose_tiers
 from signkin.io.eaf_write import WHOLE, NewTier, elan_copy, insert_tiers, write_eaf
 from signkin.io.open_slots import fill_open
 from signkin.io.registry import annotation_reader
 from signkin.io.xml_tree import Element, parse
+from signkin.rows import composed
 
 __all__ = ["NewTier", "clock_offset_s", "elan_copy", "insert_tiers", "read_eaf", "write_eaf"]
 

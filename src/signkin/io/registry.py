@@ -9,7 +9,6 @@ A format is one file in this folder: it registers a function with
 from __future__ import annotations
 
 import inspect
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,13 +22,12 @@ from signkin.annotation_rules import GlossRules, excerpt
 from signkin.clock import FASTEST_HZ, SLOWEST_HZ, no_rate_of_motion
 from signkin.errors import SignkinError, listed
 from signkin.io.axes import axis_basis, turned
+from signkin.io.chosen import check_joint_map, check_positions, check_shares, check_wrists
 from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
 METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "ft": 0.3048}
-# Beyond this, in any unit, a coordinate is a broken number and no place.
-FURTHEST = 1e9
 # A printed frame time such as 0.0333333 s is 30.00003 Hz: a declared rate may be this far off.
 RATE_TOLERANCE = 1e-3
 
@@ -143,14 +141,14 @@ def read_recording(
     part = None if part is None else str(part)
     wanted = _find(_MOTION, path, format, "motion")
     try:
-        _check_joint_map(joints)
+        check_joint_map(joints)
         _check_options(wanted, options)
     except SignkinError as error:
         raise brief(error.at(file=path)) from error
     folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
     source = _guarded(wanted, path, folders, joints=joints, part=part, **options)
     try:
-        _check_positions(source)
+        check_positions(source.positions, source.joints)
         scale, final_unit = _scale(source.unit, unit)
         basis = axis_basis(up, right)
         rate, rate_notes = _agreed_rate(source, rate_hz)
@@ -159,6 +157,10 @@ def read_recording(
             positions = source.positions @ basis.T * scale
         else:
             positions = source.positions * scale @ basis.T
+        sized = "image_size" in inspect.signature(wanted).parameters
+        if options.get("image_size") is None:
+            check_shares(positions, final_unit, sized)
+        check_wrists(positions, source.joints)
         orientations = None
         if source.orientations is not None:
             orientations = turned(source.orientations, basis)
@@ -177,33 +179,6 @@ def read_recording(
         raise brief(error.at(file=path)) from error
 
 
-def _check_joint_map(joints: object) -> None:
-    """Refuse a joint map that is none, and one that gives two joints one place in the file."""
-    if joints is None:
-        return
-    if not isinstance(joints, Mapping):
-        raise SignkinError(
-            f"the joint map is {quoted(joints)}",
-            place="joints",
-            expected="canonical name: name in the file",
-        )
-    taken: dict[Any, str] = {}
-    for joint, place in joints.items():
-        for column in place if isinstance(place, list | tuple) else (place,):
-            if not isinstance(column, str | int):
-                raise SignkinError(
-                    f"{joint} has {quoted(column)}", place="joints", expected="names of the file"
-                )
-            if column in taken:
-                both = f"{taken[column]} and {joint}" if taken[column] != joint else str(joint)
-                raise SignkinError(
-                    f"{quoted(column)} stands twice, for {both}",
-                    place="joints",
-                    expected="each joint its own place in the file",
-                )
-            taken[column] = str(joint)
-
-
 def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
     """Refuse an option that a motion reader does not have."""
     shared = ("joints", "part")
@@ -216,25 +191,6 @@ def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
             f"no option {listed(unknown)} of the format {known.get(id(reader), 'chosen')}",
             place="options",
             expected=listed([*options, "clock"], 40),
-        )
-
-
-def _check_positions(source: SourceMotion) -> None:
-    """Refuse what is no coordinate, before the axes are turned: infinity times 0 is a gap."""
-    if len(source.positions) < 2:
-        raise SignkinError(
-            f"{len(source.positions)} frames", place="frames", expected="2 frames or more"
-        )
-    with np.errstate(invalid="ignore"):
-        bad = np.abs(source.positions) > FURTHEST
-    if bad.any():
-        frame, joint, axis = (int(i) for i in np.argwhere(bad)[0])
-        value = source.positions[frame, joint, axis]
-        infinite = "the positions hold an infinite value"
-        raise SignkinError(
-            f"a coordinate of {value:g}" if np.isfinite(value) else infinite,
-            place=f"joint {source.joints[joint]}, frame {frame}",
-            expected="a finite value, or NaN for a gap",
         )
 
 
@@ -436,41 +392,3 @@ def _guarded(reader: Any, path: Path, folders: bool, **arguments: Any) -> Any:
         raise brief(error.at(file=path)) from error
     except OSError as error:
         raise SignkinError(f"not readable ({error.strerror})", file=path) from error
-
-
-def pick(
-    available: tuple[str, ...], wanted: Mapping[str, Any] | None
-) -> tuple[tuple[str, ...], list[int]]:
-    """Return canonical names and the file's indices of the wanted joints (None: all)."""
-    if wanted is None:
-        twice = sorted(name for name, count in Counter(available).items() if count > 1)
-        if twice:
-            raise _stands_twice(twice)
-        return available, list(range(len(available)))
-    unknown = [str(name) for name in wanted.values() if name not in available]
-    if unknown:
-        raise SignkinError(
-            f"no joint {listed(unknown)} in the file",
-            place="joints",
-            expected=listed(available, 200),
-        )
-    twice = [name for name in wanted.values() if available.count(name) > 1]
-    if twice:
-        raise _stands_twice(twice)
-    shared = [name for name, count in Counter(wanted.values()).items() if count > 1]
-    if shared:
-        joints = [joint for joint, name in wanted.items() if name == shared[0]]
-        raise SignkinError(
-            f"{quoted(shared[0])} stands twice, for {' and '.join(joints)}",
-            place="joints",
-            expected="each joint its own place in the file",
-        )
-    return tuple(wanted), [available.index(name) for name in wanted.values()]
-
-
-def _stands_twice(names: list[str]) -> SignkinError:
-    return SignkinError(
-        f"joint {listed(names, 5)} stands twice in the file",
-        place="joints",
-        expected="each joint once; two people of the same names are told apart by `part`",
-    )

@@ -72,6 +72,9 @@ class SrtOptions(TextOptions):
     speaker_before_colon: bool = key(False, "`ANN: text` is a cue of the tier ANN.")
 
 
+Names = Annotated[tuple[str, ...], Field(strict=False)]
+
+
 class FrameLabelOptions(TextOptions):
     """Options of labels of frames."""
 
@@ -83,6 +86,7 @@ class FrameLabelOptions(TextOptions):
     header: bool = key(True, "Whether columns have names, which are tiers.")
     blank: Annotated[tuple[str, ...], Field(strict=False)] = key(("",), "Labels that are no sign.")
     separator: Letter | None = key(None, "Between cells; found out where missing.")
+    ignore: Names = key((), "Columns whose names mean something else here.")
 
 
 class CsvOptions(TextOptions):
@@ -97,29 +101,58 @@ class CsvOptions(TextOptions):
     label_column: Text = key("label", "Column of labels.")
     tier_column: Text | None = key(None, "Column of tiers.")
     participant_column: Text | None = key(None, "Column of participants.")
-    time_unit: Literal["s", "ms", "frames", "timecode"] = key("s", "What times are.")
+    time_unit: Literal["s", "ms", "frames", "timecode"] | None = key(None, "What times are; s.")
     end_inclusive: bool = key(False, "Whether the end is the last frame of the interval.")
     separator: Letter | None = key(None, "Between cells; found out where missing.")
+    ignore: Names = key((), "Columns whose names mean something else here.")
     decimal: Literal[".", ","] | None = key(None, "The decimal sign, where it is not plain.")
 
 
+class ElanTabOptions(TextOptions):
+    """Options of ELAN's tab-delimited text."""
+
+    media_offset: Literal["added", "not_added"] | None = key(
+        None, "Whether ELAN added a medium's offset to the times."
+    )
+
+
+class VttOptions(TextOptions):
+    """Options of WebVTT."""
+
+    timestamp_map: Literal["ignore"] | None = key(None, "Where cues count in a stream's clock.")
+
+
+class C3dEventOptions(Section):
+    """Options of events of C3D files."""
+
+    start_event: Text | None = key(None, "Label of the events at which signs start.")
+    end_event: Text | None = key(None, "Label of the events at which they end.")
+    blank: Annotated[tuple[str, ...], Field(strict=False)] = key((), "Labels that end a sign.")
+    event_clock: Literal["capture", "first_frame"] | None = key(
+        None, "Where events count from, if the file does not start at frame 1."
+    )
+    header: Literal["check", "ignore"] = key("check", "Whether the header must agree.")
+    encoding: Text = key("utf-8", "Of labels.")
+
+
 OPTIONS: dict[str, type[Section]] = {
+    "c3d_events": C3dEventOptions,
     "csv": CsvOptions,
     "eaf": EafOptions,
-    "elan_tab": TextOptions,
+    "elan_tab": ElanTabOptions,
     "frame_labels": FrameLabelOptions,
     "srt": SrtOptions,
     "textgrid": TextOptions,
-    "vtt": TextOptions,
+    "vtt": VttOptions,
 }
 
 
 class Annotation(Section):
     """How annotation files are read."""
 
-    format: Literal["csv", "eaf", "elan_tab", "frame_labels", "srt", "textgrid", "vtt"] = key(
-        text="Format of the annotation files."
-    )
+    format: Literal[
+        "c3d_events", "csv", "eaf", "elan_tab", "frame_labels", "srt", "textgrid", "vtt"
+    ] = key(text="Format of the annotation files.")
     sign_tier: Tier | None = key(None, "Tier of the signs; or sign_tiers.")
     sign_tiers: SignTiers | None = key(None, "Tiers of the signs by hand.")
     utterance_tier: Tier | None = key(

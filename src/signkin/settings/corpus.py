@@ -18,8 +18,9 @@ WebAddress = Annotated[str, Field(pattern="^https?://[^ ]+$")]
 
 
 MotionFormat = Literal[
-    "bvh", "c3d", "csv", "deeplabcut_csv", "kinect", "kinect_v2", "mediapipe_csv", "motive_csv",
-    "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv", "trc", "tsd", "vicon_csv",
+    "bvh", "c3d", "csv", "deeplabcut_csv", "deeplabcut_h5", "kinect", "kinect_v2",
+    "mediapipe_csv", "motive_csv", "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv",
+    "trc", "tsd", "vicon_csv",
 ]  # fmt: skip
 Unit = Literal["m", "cm", "mm", "inch", "ft", "px"] | Positive
 
@@ -127,9 +128,10 @@ class CorpusDescription(Section):
     description: str = key("", "What was recorded, how, with whom.")
     licence: str = key(text="Licence of the recordings.")
     citation: str = key(text="How to cite it.")
-    simulator: Literal["lsf-sim", "isl-sim"] | None = key(
-        None, "The simulator that makes this corpus; leave it out for real recordings."
-    )
+    simulator: Literal["lsf-sim", "isl-sim", "signkin simulate"] | None = key(
+        None, "What makes this corpus: a rule of the run, or `signkin simulate`, whose files lie "
+        "with its description; leave it out for real recordings."
+    )  # fmt: skip
     data_folder: Annotated[Text, AfterValidator(_plain_name)] | None = key(
         None, "Folder of the recordings below data_dir; the corpus's own name where missing."
     )

@@ -53,7 +53,7 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
         try:
             for name in (entry.motion, entry.annotation):
                 if name and name not in checked:
-                    if corpus.simulator is None:
+                    if not corpus.made_by_run:
                         data_file(corpus, folder, entry, name)
                     check_checksum(corpus, folder, name)
                     checked.add(name)

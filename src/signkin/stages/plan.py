@@ -83,7 +83,7 @@ class Plan:
         """The corpus that each simulator makes in this run: simulator -> corpus."""
         out: dict[str, str] = {}
         for name, corpus in self.corpora.items():
-            if corpus.simulator is None:
+            if corpus.simulator is None or not corpus.made_by_run:
                 continue
             if corpus.simulator in out:
                 raise SignkinError(
@@ -181,7 +181,7 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         if folder is None:
             missing[name] = _why_missing(corpus, data_dir)
             continue
-        if corpus.simulator is None:
+        if not corpus.made_by_run:
             check_files(corpus, folder)
         if corpus.declared_rate_hz is not None:
             check_rate(settings, corpus.declared_rate_hz, name, "config.yaml")

@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 from signkin.statistics.findings import NAN
 
 Array = NDArray[np.float64]
@@ -86,7 +87,7 @@ def stretches(
     signs_s: (N, 2), in s. minima_s: (M,), of one hand. margin_s: how far beyond the first and
     last tag minima count. Raises SignkinError for times that are none and a rate of 0.
     """
-    signs, minima = _unmasked(signs_s).reshape(-1, 2), np.sort(_unmasked(minima_s))
+    signs, minima = unmasked(signs_s).reshape(-1, 2), np.sort(unmasked(minima_s))
     for name, values in (("tags", signs), ("minima", minima)):
         lost = int((~np.isfinite(values)).sum())
         if lost:
@@ -106,10 +107,6 @@ def stretches(
             near = (minima >= low - TOLERANCE_S) & (minima <= high + TOLERANCE_S)
             out.append(Stretch(part, minima[near], rate_hz))
     return out
-
-
-def _unmasked(values: ArrayLike) -> Array:
-    return np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), NAN), dtype=float)
 
 
 def placed(stretch: Stretch, null: Null, draws: int, rng: np.random.Generator) -> Array:

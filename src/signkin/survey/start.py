@@ -32,7 +32,7 @@ from signkin.survey.skeletons import joint_map
 # Formats by suffix, tried in order: the first that reads the file is taken.
 MOTION: dict[str, tuple[str, ...]] = {
     ".bvh": ("bvh",), ".c3d": ("c3d",), ".trc": ("trc",), ".pose": ("pose",), ".tsd": ("tsd",),
-    ".npy": ("npy",), ".npz": ("npy",),
+    ".npy": ("npy",), ".npz": ("npy",), ".h5": ("deeplabcut_h5",),
     ".csv": ("vicon_csv", "motive_csv", "deeplabcut_csv", "mediapipe_csv", "openpose_csv", "csv"),
     ".tsv": ("qualisys_tsv", "csv"),
 }  # fmt: skip
@@ -53,11 +53,13 @@ GUESSES: dict[str, Any] = {
 @dataclass
 class Start:
     """What was found out of a folder. lines: corpus.yaml. recordings: recordings.csv.
+    signs: signs.csv, empty where there are no tags.
     asked: what a person has to say, a sentence each."""
 
     name: str
     lines: list[str] = field(default_factory=list)
     recordings: str = ""
+    signs: str = ""
     asked: list[str] = field(default_factory=list)
 
     @property
@@ -89,7 +91,8 @@ def start(folder: Path, name: str) -> Start:
     _noise(out, sample, known)
     _motion_section(out, format, probe, known, columns)
     if tags:
-        _tag_section(out, tag_format, list(tags.values()))
+        tiers = _tag_section(out, tag_format, list(tags.values()))
+        out.signs = signs_table(tag_format, list(tags.values()), tiers)
     out.recordings = _recordings(folder, motion, tags)
     lone = [m.name for m in motion if tags and m not in tags]
     if lone:
@@ -322,8 +325,37 @@ def _axis(vector: NDArray[np.float64]) -> str:
     return ("-" if middle[largest] < 0 else "") + "xyz"[largest]
 
 
-def _tag_section(out: Start, format: str, files: Sequence[Path]) -> None:
-    """Describe the tiers of the first annotation, and choose by name and length."""
+def signs_table(format: str, files: Sequence[Path], tiers: Sequence[str]) -> str:
+    """Return signs.csv: the glosses of tiers that may hold signs, the commonest first.
+
+    Their types are left empty, which is a question; the column source says where they stand.
+    """
+    counts: Counter[str] = Counter()
+    where: dict[str, Counter[str]] = {}
+    for path in files:
+        try:
+            annotation = read_annotation(path, format=format)
+        except SignkinError:
+            continue  # `check` tells of it
+        for interval in annotation.intervals:
+            gloss = " ".join(interval.label.split())
+            if gloss and interval.tier in tiers:
+                counts[gloss] += 1
+                where.setdefault(gloss, Counter())[interval.tier] += 1
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["gloss", "hands", "symmetric", "source"])
+    for gloss, _ in counts.most_common():
+        told = ", ".join(f"{tier}: {n}" for tier, n in where[gloss].most_common())
+        writer.writerow([gloss, "", "", f"ASK: its type? {told}"])
+    return text.getvalue()
+
+
+def _tag_section(out: Start, format: str, files: Sequence[Path]) -> list[str]:
+    """Describe the tiers of the first annotation, choose by name and length; return the signs'.
+
+    Where no name tells the tier of the signs, those that are no sentences and translations are.
+    """
     annotation = read_annotation(files[0], format=format)
     tiers = {t: [i.end_s - i.start_s for i in annotation.tier(t)] for t in annotation.tiers}
     signs = sorted(
@@ -344,6 +376,8 @@ def _tag_section(out: Start, format: str, files: Sequence[Path]) -> None:
     translations = [t for t in rest if TRANSLATION_TIER.search(t)]
     if translations:
         out.lines.append(f"  translation_tier: {yaml_value(translations[0])} # by its name")
+    named = [tier for tier in signs if SIGN_TIER.search(tier)]
+    return [t for t in named or signs if t not in (*sentences, *translations)] or signs[:1]
 
 
 def _recordings(folder: Path, motion: Sequence[Path], tags: Mapping[Path, Path]) -> str:

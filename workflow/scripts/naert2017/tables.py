@@ -42,7 +42,9 @@ with job(snakemake, analysis=True):
         "boundaries": ("boundaries", boundaries),
         "posteriors": (
             "boundary_posteriors",
-            boundary_posteriors(corpus, tagged, intervals, minima),
+            boundary_posteriors(
+                corpus, tagged, intervals, minima, sign_types, settings.kinematics.lowpass.cutoff_hz
+            ),
         ),
         "sign_types": ("sign_types", sign_types),
         "transitions": ("transitions", moves),

@@ -45,8 +45,8 @@ def effect_size(
     """A printed effect size follows from a printed statistic; the finding names the variant.
 
     effect: d, g, r, eta2, partial_eta2, omega2, epsilon2, f (Cohen's), phi or v (Cramer's).
-    kind: t, F, chi2 or z. n: the groups' sizes, or of all together. k: the smaller number of rows
-    or columns, for v. Signs are not looked at.
+    kind: t, F, chi2 (one df for d) or z. n: the groups' sizes, or of all together. k: the smaller
+    number of rows or columns, for v. Signs are not looked at.
     """
     dfs = [want_number("df", context.text(d)) for d in df]
     sizes = [set_count("n", context.text(size)) for size in n]
@@ -87,6 +87,10 @@ def _variants(
     if kind == "chi2" and n and effect in ("phi", "v", "r"):
         by = sum(n) * ((k - 1) if effect == "v" else 1)
         return [(f"sqrt(chi2 / {by})", lambda x: sqrt(x / by))] if by > 0 else []
+    if kind == "chi2" and n and effect == "d":
+        whole_n = sum(n)
+        return [("2 sqrt(chi2 / (n - chi2))",
+                 lambda x: 2 * sqrt(x / (whole_n - x)) if x < whole_n else inf)]  # fmt: skip
     if kind == "z" and n and effect == "r":
         return [("z / sqrt(n)", lambda x: x / sqrt(sum(n)))]
     return []

@@ -115,7 +115,8 @@ def test_of_groups(
 
     test: student, welch (t of two groups), anova, welch_anova, or open: each that fits the number
     of groups is tried, with each divisor (spread: sd, se or either) that is left open. Without a
-    table, n, mean and sd are lists of as many numbers. Signs of t and d are not looked at.
+    table, n, mean and sd are lists of as many numbers. Signs of t and d are not looked at. d may be
+    by the pooled SD, Hedges' g, Glass's delta or by the mean variance: the finding names which.
     """
     want_settings(None, 1, divisor, "nearest", spread)
     printed = {name: context.text(text) for name, text in
@@ -176,20 +177,26 @@ def _given(
     """Return the finding of all printed numbers under one reading."""
     of = groups(*reading)
     found: dict[str, list[Range]] = {}
+    variants: list[str] = []
     if kind in ("student", "welch"):
         two = two_groups.compare(of, kind == "student")
         p = two.p if tail == "two" else Range(two.p.value / 2, two.p.low / 2, two.p.high / 2)
-        found = {"t": [two.t], "df": [two.df], "p": [p], "d": [two.d, two.g]}
+        found = {"t": [two.t], "df": [two.df], "p": [p],
+                 "d": [two.d, two.g, *(value for _, value in two.others)]}  # fmt: skip
+        variants = ["", "d as Hedges' g", *(f"d as {name}" for name, _ in two.others)]
     else:
         test = (summaries.anova if kind == "anova" else summaries.welch)(of)
         found = {"F": [test.statistic], "df": [test.df2], "p": [test.p]}
     unknown = [name for name in printed if name not in found]
     if unknown:
         raise SignkinError(f"{listed(unknown)} is no number of {kind}", expected=listed(found))
-    wrong, told, intervals, severe = [], [], [], False
+    wrong, told, intervals, severe, as_variant = [], [], [], False, ""
     for name, text in printed.items():
-        fits = any(_printed_in(name, text, value, alpha) for value in found[name])
-        first = found[name][0]
+        fitting = [_printed_in(name, text, value, alpha) for value in found[name]]
+        fits = any(fitting)
+        place = fitting.index(True) if fits else 0
+        as_variant = as_variant or (variants[place] if name == "d" else "")
+        first = found[name][place]
         told.append(f"{name} = {first.value:.4g}")
         intervals.append(f"{name} {first.low:.4g} to {first.high:.4g}")
         if not fits:
@@ -201,6 +208,7 @@ def _given(
                 said = _p_of(name, text, of, found) < float(alpha)
             severe = severe or (said is not None and said != (found["p"][0].value < float(alpha)))
     why = f"the groups give {', '.join(told)}"
+    why += f" ({as_variant})" if as_variant else ""
     why += f", printed {', '.join(wrong)}" if wrong else ""
     shown_print = ", ".join(f"{name} {text}" for name, text in printed.items())
     return Finding(

@@ -137,7 +137,9 @@ def scale_bounds(
     columns = {"n": n, "mean": mean, "sd": sd, **scale_columns(context, table, low, high)}
     fixed = {name: want_number(name, context.text(text))
              for name, text in (("low", low), ("high", high)) if name not in columns}  # fmt: skip
-    if len(fixed) == 2 and fixed["low"] >= fixed["high"]:
+    if len(fixed) == 2 and (fixed["low"] > fixed["high"] or (
+        fixed["low"] == fixed["high"] and not observed
+    )):  # fmt: skip
         raise SignkinError(f"a scale from {fixed['low']:g} to {fixed['high']:g}",
                            expected="its lower end first")  # fmt: skip
 

@@ -72,17 +72,18 @@ def relation(context: OnPrint, holds: str, exact: Sequence[str] = ()) -> list[Fi
 def p_value(
     context: OnPrint, kind: str, statistic: str, p: str, df: Sequence[str] = (),
     alpha: str = "0.05", tails: str = "open", groups: Sequence[str] = (),
-    rounding: str = "nearest",
+    rounding: str = "nearest", epsilon: str = "",
 ) -> list[Finding]:  # fmt: skip
     """A printed p belongs to a printed statistic (F, t, chi2, H, Q, z, r).
 
     p: `.04`, `<.001`, `>.05`, `ns`, `1.4e-5`. df: one, two for F, none for z; of r, n - 2.
     tails: two, one, or open (each is tried, and told). groups: the sizes of the groups of H, for
     its exact p. Degrees of freedom printed whole may be rounded (Welch): that is tried, too.
+    epsilon: of repeated measures (F), where p is corrected and df is not: printed, or open.
     """
     found = pvalues.p_agrees(
         kind, context.text(statistic), [context.text(d) for d in df], context.text(p), alpha,
-        rounding, tails, [context.text(g) for g in groups],
+        rounding, tails, [context.text(g) for g in groups], context.text(epsilon),
     )  # fmt: skip
     if found.verdict == INCONSISTENT:
         cells = {kind: context.text(statistic), "p": context.text(p)}
@@ -103,11 +104,12 @@ def p_value(
 )  # fmt: skip
 def p_values(
     context: OnPrint, table: str, kind: str, statistic: str = "", df: str = "df", df1: str = "",
-    p: str = "p", alpha: str = "0.05", tails: str = "open",
+    p: str = "p", alpha: str = "0.05", tails: str = "open", epsilon: str = "",
 ) -> list[Finding]:  # fmt: skip
     """Each row's p belongs to its statistic.
 
     statistic, df, df1, p: columns; the statistic's is called as its kind, if not told. df1: of F.
+    epsilon: as of p_value, for all rows.
     """
     wanted = {"t": 1, "F": 2, "chi2": 1, "H": 1, "Q": 1, "z": 0, "r": 1}
     if kind not in wanted:
@@ -120,7 +122,8 @@ def p_values(
 
     def judge(row: Row) -> Finding:
         dfs = [row[name] for name in ("df1", "df") if name in columns]
-        return pvalues.p_agrees(kind, row["statistic"], dfs, row["p"], alpha, tails=tails)
+        return pvalues.p_agrees(kind, row["statistic"], dfs, row["p"], alpha, tails=tails,
+                                epsilon=epsilon)  # fmt: skip
 
     return each(rows_of(context, table, columns, key="statistic"), judge)
 
@@ -137,7 +140,10 @@ def p_reachable(context: OnPrint, groups: Sequence[str], p: str) -> list[Finding
     h, least = kruskal.kruskal_limit(sizes)
     printed = context.text(p)
     exact = kruskal.least_exact_p(sizes)
-    fits = min(least, 1.0 if exact is None else exact) < float(exactly(printed.lstrip("<").strip()))
+    read, lowest = pvalues.printed_p(printed), min(least, 1.0 if exact is None else exact)
+    fits = lowest < float(exactly(read.digits)) if read.sign == "<" else True
+    if read.sign == "=":
+        fits = lowest <= float(allowed(read.digits).high)
     shape = f"{len(sizes)} groups of {sizes[0]}" if len(set(sizes)) == 1 else (
         f"groups of {listed(sizes)}"
     )  # fmt: skip

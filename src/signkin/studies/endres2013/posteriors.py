@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from signkin import tables
 from signkin.binning import Posterior, Prior, fit_many
 from signkin.binning.hit_rate import hit_rate
+from signkin.binning.shifted import shifted_hits
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 from signkin.settings.sections import Prior as PriorSettings
@@ -229,10 +230,9 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
         if not known:
             yield {**row, "note": _joined("boundaries of recorded movements are not known", doubts)}
             continue
-        rate = hit_rate(
-            fitted.boundaries_s(order), data.truth_s, settings.hit_window_s,
-            duration_s=source.duration_s,
-        )  # fmt: skip
+        found, window = fitted.boundaries_s(order), settings.hit_window_s
+        rate = hit_rate(found, data.truth_s, window, duration_s=source.duration_s)
+        chance = shifted_hits(found, data.truth_s, window, duration_s=source.duration_s)
         hpfpps = rate.hpfpps
         yield {
             **row,
@@ -242,6 +242,8 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "hit_rate": rate.hit_rate,
             "false_positives_per_s": rate.false_positives_per_s,
             "hpfpps": hpfpps if np.isfinite(hpfpps) else None,
+            "shifted_hits": chance.mean,
+            "shifted_sd": chance.sd,
             "note": _joined(
                 rate.note or ("" if np.isfinite(hpfpps) else _why_no_ratio(rate.hits)), doubts
             ),
