@@ -7,12 +7,12 @@ import yaml
 
 from signkin import SignkinError
 from signkin.corpus import (
-    check_checksum,
     check_files,
     data_folder,
     load_corpora,
     load_corpus,
 )
+from signkin.corpus_checksums import check_checksum
 from signkin.io import annotation_formats, motion_formats
 from signkin.settings.corpus import Annotation, Motion
 
