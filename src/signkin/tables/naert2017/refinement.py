@@ -109,7 +109,7 @@ TABLES = (
                 "for the mean share: p adjusted (Holm) for both hands, both sets of tags and "
                 "the three nulls",
             ),
-            Column("n", "", "tags"),
+            Column("n", "", "tags; transitions, for the change of duration"),
             Column("stretches", "", "stretches of signing without a long pause"),
             NOTE,
         ),
