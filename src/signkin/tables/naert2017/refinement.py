@@ -95,8 +95,8 @@ TABLES = (
             ),
             text(
                 "measure",
-                "share within the window, mean share (over the windows), median distance, or median "
-                "change of duration (of transitions, each tag moved to its nearest minimum)",
+                "share within the window, mean share (over the windows), median distance, or "
+                "median change of duration (of transitions, each tag moved to its nearest minimum)",
             ),
             Column("window_s", "s", "window of the share; empty for the other measures"),
             Column("value", "share or s", "for the manual tags"),
