@@ -95,7 +95,8 @@ TABLES = (
             ),
             text(
                 "measure",
-                "share within the window, mean share (over the windows), or median distance",
+                "share within the window, mean share (over the windows), median distance, or "
+                "median change of duration (of transitions, each tag moved to its nearest minimum)",
             ),
             Column("window_s", "s", "window of the share; empty for the other measures"),
             Column("value", "share or s", "for the manual tags"),
@@ -109,7 +110,7 @@ TABLES = (
                 "for the mean share: p adjusted (Holm) for both hands, both sets of tags and "
                 "the three nulls",
             ),
-            Column("n", "", "tags"),
+            Column("n", "", "tags; transitions, for the change of duration"),
             Column("stretches", "", "stretches of signing without a long pause"),
             NOTE,
         ),
