@@ -200,6 +200,18 @@ def test_densities_of_both_wrists_are_the_posterior_of_each_order(tmp_path):
     assert stems["right"]["order"] == 3 and stems["right"]["times"] == found["right", 3]["times"]
 
 
+def test_where_densities_cannot_be_worked_out_the_page_has_the_tables_boundaries(
+    tmp_path, monkeypatch
+):
+    def fail(*given, **more):
+        raise IndexError("index 0 is out of bounds")
+
+    monkeypatch.setattr("signkin.explorer.densities.fit", fail)
+    _, data = pages_of(tmp_path, [signer()], binned=True)
+    assert data["densities"] == [] and len(data["boundaries"]) == 2
+    assert any("No density of boundaries: IndexError" in text for text in data["missing"])
+
+
 def test_a_very_long_recording_has_the_density_of_one_order(tmp_path, monkeypatch):
     monkeypatch.setattr("signkin.explorer.densities.MOST_BINS", 100)
     _, data = pages_of(tmp_path, [signer()], binned=True)

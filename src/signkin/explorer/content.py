@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import traceback
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -17,8 +18,10 @@ from signkin.explorer.sources import Sources
 from signkin.explorer.syntheses import syntheses
 from signkin.joints import HANDS
 from signkin.recording import Recording
+from signkin.report.attempts import CANNOT
 from signkin.studies.endres2013.single_signs import movement_of
 from signkin.studies.naert2017.synthesis.database import database
+from signkin.unavailable import reason_of
 
 MOST_BYTES = 4_900_000  # of a page
 FRAME_BYTES = 160_000  # the page without its content
@@ -62,8 +65,8 @@ def content(
         "boundaries": curves.series_boundaries(
             sources.of("wrist_boundaries", name), sources.of("wrist_posteriors", name)
         ),
-        "densities": _densities(sources, recording, posteriors),
     }
+    data["densities"], told = _densities(sources, recording, posteriors)
     data["flags"] = events.flags(data)
     data["transitions"] = _rows(data["transitions"])
     data["labels"] = list(labels.texts)
@@ -74,7 +77,7 @@ def content(
     data["syntheses"] = _syntheses(sources, recording, data["skeleton"])
     if kept and not data["syntheses"]["methods"]:  # what was kept for them is the skeleton's
         data["skeleton"] = _skeleton(recording, room)
-    data["missing"] = _missing(sources, recording, data)
+    data["missing"] = [*_missing(sources, recording, data), *told]
     return data
 
 
@@ -88,14 +91,23 @@ def _skeleton(recording: Recording, room: int) -> Mapping[str, Any]:
     return skeleton(recording, min(SKELETON_BYTES, max(room, LEAST_SKELETON_BYTES)))
 
 
-def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return the boundary densities of a recording, in its own time.
+def _densities(
+    sources: Sources, recording: Recording, rows: pd.DataFrame
+) -> tuple[list[dict[str, Any]], list[str]]:
+    """Return the boundary densities of a recording, in its own time, and why there are none.
 
-    rows: its posteriors, of a recording of one sign.
+    rows: its posteriors, of a recording of one sign. Where those of a continuous recording cannot
+    be worked out, its page shows the boundaries of the run's tables.
     """
     if not len(rows):
         hands = list(sources.of("wrist_posteriors", recording.name)["hand"])
-        return series_densities(sources.corpus, recording, hands, sources.settings.densities)
+        try:
+            wanted = sources.settings.densities
+            return series_densities(sources.corpus, recording, hands, wanted), []
+        except CANNOT as error:
+            traceback.print_exception(error)  # in the log of the job
+            why = reason_of(error, f"logs/{sources.corpus.name}/explorer.log")
+            return [], [f"No density of boundaries: {why}."]
     movement = movement_of(recording, sources.settings.cut)
     start = movement.active.start / recording.rate_hz
     found = curves.single_sign_densities(rows)
@@ -103,7 +115,7 @@ def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> li
         one["first"] = float(f"{one['first'] + start:.9g}")
         if one["times"]:
             one["times"][0] += round(1000 * start)
-    return found
+    return found, []
 
 
 def _syntheses(
