@@ -188,7 +188,29 @@ class Corpus:
     def files(self) -> list[str]:
         """Return the data files of all recordings, each once, in order."""
         names = [n for e in self.entries for n in (e.motion, e.annotation) if n]
-        return list(dict.fromkeys(names))
+        return list(dict.fromkeys([*names, *self.annotator_files()]))
+
+    @property
+    def annotators(self) -> dict[str, dict[str, Any]]:
+        """Where the signs of further annotators are, by annotator."""
+        return dict(self.settings.get("annotation", {}).get("annotators", {}))
+
+    def annotator_file(self, entry: Entry, annotator: str) -> str:
+        """Return the file with an annotator's tags of a recording."""
+        wish = self.annotators[annotator].get("file")
+        return entry.annotation if wish is None else str(_filled(wish, entry))
+
+    def annotator_files(self) -> list[str]:
+        """Return the files of further annotators, each once."""
+        return list(dict.fromkeys(
+            self.annotator_file(e, name) for name in self.annotators for e in self.entries
+        ))  # fmt: skip
+
+    def annotator_spec(self, entry: Entry, annotator: str) -> dict[str, Any]:
+        """Return the arguments of `read_annotation` for an annotator's tags of a recording."""
+        tier = self.annotators[annotator].get("tier", self.settings["annotation"].get("sign_tier"))
+        wishes = () if tier is None else (_filled(tier, entry),)
+        return {**self.annotation_spec(entry), "tiers": wishes}
 
 
 def _is_by_hand(wanted: Any) -> bool:

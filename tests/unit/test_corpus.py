@@ -110,6 +110,9 @@ def test_the_shipped_corpora_are_right(root):
     assert single == {"auslan-hq", "isl-kinect", "isl-sim"}
     assert set(corpora) >= {"lsf-sim", "dgs-1984189", "boston104", "libras"}
     assert len(corpora["boston104"].entries) == 201
+    for corpus in corpora.values():
+        assert corpus.settings["citation"] and corpus.settings["licence"]
+        assert corpus.simulator or set(corpus.settings["checksums"]) == set(corpus.files())
     assert corpora["lsf-sim"].simulator == "lsf-sim"
 
 

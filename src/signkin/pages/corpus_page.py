@@ -17,6 +17,7 @@ from signkin.pages.corpora import design, origin
 from signkin.pages.corpus_durations import counted, durations_of
 from signkin.pages.corpus_elan import MOST_FILES, Looked, write_check_files
 from signkin.pages.corpus_list import overview_of, todo_of
+from signkin.pages.corpus_segments import agreement_section, boundaries_section
 from signkin.pages.corpus_tags import against_chance, tags_of, worst_tags
 from signkin.pages.corpus_views import (
     duration_views,
@@ -184,7 +185,12 @@ def corpus_page(
         sections += [
             _attempted("durations", "Durations of transitions", _durations, owner, files),
             _attempted("tags", "Quality of the tags", _tags, owner, files),
+            _attempted("boundaries", "Where signs start and end", boundaries_section, owner),
         ]
+        if corpus.annotators:
+            sections.append(
+                _attempted("annotators", "Agreement of annotators", agreement_section, owner)
+            )
     else:
         sections.append(Section("speed", "Wrist speed", exhibits=(speed_view(owner),)))
     sections.append(Section("lacking", "What is not available, and why", text=_lacking(owner)))

@@ -43,6 +43,22 @@ class SignTiers(Section):
         return self
 
 
+class Annotator(Section):
+    """Where a further annotator's signs are; one of the two keys at least."""
+
+    file: Text | None = key(
+        None, "Annotation file, with `{recording}`, `{part}` or `{signer}`; the recording's own "
+        "if missing.",
+    )  # fmt: skip
+    tier: Tier | None = key(None, "Tier of this annotator's signs; sign_tier if missing.")
+
+    @model_validator(mode="after")
+    def _one_at_least(self) -> Annotator:
+        if self.file is None and self.tier is None:
+            raise ValueError("file or tier, or both")
+        return self
+
+
 class Gloss(Section):
     """How glosses are made from labels; the label as written is kept beside."""
 
@@ -85,7 +101,9 @@ class FrameLabelOptions(TextOptions):
     first_frame: Annotated[int, Field(ge=0)] = key(0, "Number of the first frame.")
     header: bool = key(True, "Whether columns have names, which are tiers.")
     blank: Annotated[tuple[str, ...], Field(strict=False)] = key(("",), "Labels that are no sign.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
     ignore: Names = key((), "Columns whose names mean something else here.")
 
 
@@ -103,7 +121,9 @@ class CsvOptions(TextOptions):
     participant_column: Text | None = key(None, "Column of participants.")
     time_unit: Literal["s", "ms", "frames", "timecode"] | None = key(None, "What times are; s.")
     end_inclusive: bool = key(False, "Whether the end is the last frame of the interval.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
     ignore: Names = key((), "Columns whose names mean something else here.")
     decimal: Literal[".", ","] | None = key(None, "The decimal sign, where it is not plain.")
 
@@ -162,6 +182,10 @@ class Annotation(Section):
         None, "A pause longer than this ends an utterance (where no tier tells).", unit="s"
     )
     translation_tier: Tier | None = key(None, "Tier with translations, for Table 1.")
+    annotators: dict[Text, Annotator] = key(
+        {}, "Further annotators of the same signing, by name; the page of the corpus shows how far "
+        "they agree.",
+    )  # fmt: skip
     gloss: Gloss | None = key(None, "Rules for glosses.")
     options: dict[str, Any] = key(
         {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."

@@ -123,6 +123,15 @@ class Plan:
         names = dict.fromkeys(e.annotation for e in self.corpora[corpus].entries if e.annotation)
         return self._there(corpus, list(names))
 
+    @property
+    def with_annotators(self) -> list[str]:
+        """Corpora that name several annotators."""
+        return [name for name in self.tagged if self.corpora[name].annotators]
+
+    def annotator_files(self, corpus: str) -> list[str]:
+        """Return the annotation files of the further annotators of a corpus that are there."""
+        return self._there(corpus, self.corpora[corpus].annotator_files())
+
     def _there(self, corpus: str, names: list[str]) -> list[str]:
         """Return the paths of data files; a corpus that skips recordings may lack some."""
         paths = [self.folders[corpus] / name for name in names]
