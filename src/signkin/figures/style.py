@@ -58,10 +58,13 @@ def settle(figure: Figure) -> None:
 
     The constrained layout's solver adds up in an order that goes by places in memory: last
     digits differ from run to run, and SVG identifiers are made of them. Nothing is drawn for it,
-    and no engine is left: with one, even if it does nothing, matplotlib draws twice a file.
+    unless axes keep a ratio, which drawing alone brings about; and no engine is left: with one,
+    even if it does nothing, matplotlib draws twice a file.
     """
     engine = figure.get_layout_engine()
-    if engine is not None:
+    if any(ax.get_aspect() != "auto" or ax.get_box_aspect() is not None for ax in figure.axes):
+        figure.draw_without_rendering()
+    elif engine is not None:
         engine.execute(figure)
     with mpl.rc_context(NO_LAYOUT):
         figure.set_layout_engine(None)
