@@ -177,7 +177,8 @@ def _agreement(owner: Owner, title: str) -> Iterator[View]:
         label="",
         title=title,
         caption="Signs of one annotator against those of another (docs/scoring.md); gamma is 1 for "
-        "the same signs, 0 for chance. Chance: the same lengths and gaps in another order within each recording.",
+        "the same signs, 0 for chance. Chance: the same lengths and gaps in another order within "
+        "each recording.",
         frame=read_table(path, "annotator_agreement"),
         columns={"first": ("scored", ""), "second": ("against", ""), "measure": ("score of", ""),
                  "of": ("", ""), **CHANCE},
