@@ -7,7 +7,6 @@ the vocabulary, sign types that contradict themselves.
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -21,7 +20,6 @@ import yaml
 
 from signkin import joints as joint_names
 from signkin.annotation import TierWish, tier_key
-from signkin.checksum import sha256_of
 from signkin.corpus_tiers import filled, is_by_hand
 from signkin.errors import SignkinError, listed
 from signkin.owner_rows import read_owner_table
@@ -465,33 +463,6 @@ def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
             expected="the recording's file in the data folder",
         )
     return path
-
-
-def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
-    """Refuse a file that is not the one the corpus was described with."""
-    expected = corpus.settings.get("checksums", {}).get(name)
-    if expected is None:
-        return
-    found = _digest(folder / name)
-    if found != expected:
-        raise SignkinError(
-            f"the SHA-256 of {name} is {found}",
-            file=corpus.folder / "corpus.yaml",
-            place="key checksums",
-            expected=expected,
-            todo="Get the file again, or correct the checksum if the change is meant.",
-        )
-
-
-def _digest(path: Path) -> str:
-    """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
-    if not path.is_dir():
-        return sha256_of(path)
-    whole = hashlib.sha256()
-    for file in sorted(path.iterdir()):
-        if file.is_file():
-            whole.update(f"{file.name}\0{sha256_of(file)}\n".encode())
-    return whole.hexdigest()
 
 
 def data_dir_of(data_dir: str | None) -> str | None:

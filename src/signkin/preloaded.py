@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from contextlib import suppress
 from importlib import import_module
+from io import BytesIO
 
 from signkin.checkout import workflow_home
 
@@ -40,6 +41,22 @@ def names() -> list[str]:
     return [*LIBRARIES, *sorted(found)]
 
 
+def _draw() -> None:
+    """Draw a figure as jobs do: fonts, formulas and what writes SVG and PDF are read by then."""
+    from matplotlib import pyplot as plt
+
+    from signkin.figures.style import paper_style
+
+    with paper_style():
+        figure, ax = plt.subplots()
+        ax.set_title(r"$\beta = -\frac{1}{3}$ –")
+        for kind in ("svg", "pdf"):
+            figure.savefig(BytesIO(), format=kind)
+        plt.close(figure)
+
+
 for name in names():
     with suppress(Exception):  # `signkin.tables.read_table` is no module
         import_module(name)
+with suppress(Exception):
+    _draw()

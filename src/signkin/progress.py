@@ -72,10 +72,10 @@ class Progress:
             self.running[job] = (what, self.now())
             self.tell()
 
-    def end(self, job: int) -> None:
-        """A step does not run any more."""
+    def end(self, job: int) -> str:
+        """A step does not run any more; returns what it was, '' if it is not known."""
         with self._lock:
-            self.running.pop(job, None)
+            return self.running.pop(job, ("", 0.0))[0]
 
     def count(self, done: int, total: int) -> None:
         """So many steps are done."""

@@ -73,9 +73,10 @@ class LogHandler(LogHandlerBase):
         elif event == LogEvent.PROGRESS and not self._silent:
             self.progress.count(record.done, record.total)  # type: ignore[attr-defined]
         elif event == LogEvent.JOB_ERROR:
-            self.progress.end(job)
+            # The record of an error has no wildcards: the step is known from its start.
+            what = self.progress.end(job) or getattr(record, "rule_name", "unknown")
             if not _tells_why(record):
-                self.progress.say(f"The step {_name(record)} failed.")
+                self.progress.say(f"The step {what} failed.")
         elif record.levelno >= logging.WARNING:
             text = str(record.msg)
             if not any(words in text for words in CONSEQUENCES):

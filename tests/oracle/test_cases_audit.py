@@ -61,8 +61,10 @@ def test_statistics_are_read_and_their_p_is_statchecks(cases):
         assert p == pytest.approx(float(row["computed_p"]), abs=1e-9), row["raw"]
 
 
-# Rounded degrees of freedom (1.8, 86.7) allow .017; 7.1423e-04 is the rounded p of 4.0728.
-ROUNDED = {"F(1.8, 86.7) = 4.55, p = .017", "t(18) = 4.0728, p = 7.1423e-04"}
+# Rounded degrees of freedom (1.8, 86.7) allow .017; 7.1423e-04 is the rounded p of 4.0728; .012 is
+# that of r(54), so that 56 may be n.
+ROUNDED = {"F(1.8, 86.7) = 4.55, p = .017", "t(18) = 4.0728, p = 7.1423e-04",
+           "r(56) = .34, p = .012"}  # fmt: skip
 
 
 def test_verdicts_are_statchecks_where_the_test_is_two_tailed(cases):

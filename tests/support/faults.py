@@ -184,11 +184,14 @@ def signals(bench: Bench) -> Iterator[Row]:
         for whole in (False, True):
             folder = bench.fresh(f"{name}-{whole}")
             with bench.running(folder, until=ENDED) as process:
-                number = getattr(signal, name)
-                (os.killpg if whole else os.kill)(process.pid, number)
-                ended = wait_for(lambda: process.poll() is not None, 60)
+                early = process.poll() is not None
+                if not early:
+                    (os.killpg if whole else os.kill)(process.pid, getattr(signal, name))
+                ended = not early and wait_for(lambda: process.poll() is not None, 60)
                 nothing = wait_for(lambda: not members(process.pid), 20)
                 told = "ended, nothing left" if ended and nothing else "something outlived it"
+                if early:
+                    told = f"over before: {sentence((folder / 'run.log').read_text())}"
             then, ok = bench.then(folder)
             to = "the group" if whole else "the command alone"
             yield Row(f"{name} to {to}", told, then, ok and ended and nothing)

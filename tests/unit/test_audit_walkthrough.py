@@ -35,5 +35,6 @@ def test_the_walk_through_does_what_it_says(root, tmp_path, monkeypatch, capsys)
     assert statuses["signkin audit results --to results-page"] == 1
     assert statuses["signkin audit check grim --mean 7.01 --n 35 --grain 1"] == 1
     assert "F(2, 57) = 3.10 has p 0.0527" in told
-    assert "only read as one-tailed" in " ".join(told.split())
+    assert ", one-tailed" in " ".join(told.split())
+    assert "tails: one" in (tmp_path / "results/claims.yaml").read_text(encoding="utf-8")
     assert (tmp_path / "pigs-page/index.html").is_file()

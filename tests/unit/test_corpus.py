@@ -7,12 +7,12 @@ import yaml
 
 from signkin import SignkinError
 from signkin.corpus import (
-    check_checksum,
     check_files,
     data_folder,
     load_corpora,
     load_corpus,
 )
+from signkin.corpus_checksums import check_checksum
 from signkin.io import annotation_formats, motion_formats
 from signkin.settings.corpus import Annotation, Motion
 
@@ -110,6 +110,9 @@ def test_the_shipped_corpora_are_right(root):
     assert single == {"auslan-hq", "isl-kinect", "isl-sim"}
     assert set(corpora) >= {"lsf-sim", "dgs-1984189", "boston104", "libras"}
     assert len(corpora["boston104"].entries) == 201
+    for corpus in corpora.values():
+        assert corpus.settings["citation"] and corpus.settings["licence"]
+        assert corpus.simulator or set(corpus.settings["checksums"]) == set(corpus.files())
     assert corpora["lsf-sim"].simulator == "lsf-sim"
 
 

@@ -11,7 +11,7 @@ import struct
 import numpy as np
 import pytest
 
-from signkin import SignkinError, read_recording
+from signkin import SignkinError, read_annotation, read_recording
 from support.motion_files import SAMPLES, motion, pixels
 
 
@@ -79,6 +79,8 @@ def test_what_stands_twice_or_out_of_order(tmp_path, name, change, match):
         ("deeplabcut_csv", named(lambda i: "frame")),
         ("openpose_csv", swap(",0.9\n", ",1.04\n")),
         ("qualisys_tsv", swap("NO_OF_CAMERAS\t8", "NO_OF_CAMERAS\t8\nNO_OF_CAMERAS\t8")),
+        ("qualisys_tsv", swap("DESCRIPTION\t--", "EVENT\tA\t1\t0.0\nEVENT\tB\t9\t0.2")),
+        ("vicon_csv", swap("Frame,Sub Frame,", "Frame,,")),
     ],
 )
 def test_what_is_unusual_is_read(tmp_path, name, change):
@@ -161,6 +163,44 @@ def test_a_folder_of_frames_holds_one_video(tmp_path):
     last.rename(folder / f"w_{18:012d}_keypoints.json")
     with pytest.raises(SignkinError, match=r"w_0+18_keypoints.json: frames of 'v_' and of 'w_'"):
         read_recording(folder, **spec)
+
+
+def test_formats_that_are_not_read_say_what_to_do(tmp_path):
+    for suffix, told in ((".AMC", "convert both to BVH"), (".asf", "BVH"), (".xlsx", "as CSV")):
+        path = tmp_path / f"a{suffix}"
+        path.write_bytes(b"x")
+        with pytest.raises(SignkinError, match=f"{suffix.lower()} is not read.*{told}"):
+            read_recording(path, unit="m")
+
+
+@pytest.mark.parametrize(
+    ("call", "match"),
+    [
+        (lambda p: read_recording(None), "the path is 'None'"),
+        (lambda p: read_annotation(3), "the path is '3'"),
+        (lambda p: read_annotation(p, format="csv", tiers=(3,)), "the tiers are"),
+        (lambda p: read_annotation(p, format="csv", from_s="1"), "from_s is 1"),
+        (lambda p: read_annotation(p, format="csv", to_s="1"), "from_s is 0.0"),
+        (lambda p: read_recording(p, format="c3d", incomplete="no"), "incomplete is 'no'"),
+        (lambda p: read_recording(p, format="npy", confidence=1), "confidence is '1'"),
+    ],
+)
+def test_arguments_of_another_kind_are_told(tmp_path, call, match):
+    path = tmp_path / "x"
+    path.write_text("start,end,label\n0,1,A\n")
+    with pytest.raises(SignkinError, match=match):
+        call(path)
+
+
+@pytest.mark.parametrize("name", ["deeplabcut_csv", "bvh", "trc", "vicon_csv"])
+def test_names_in_another_encoding_are_declared(tmp_path, name):
+    old = "LEFT_WRIST" if name == "deeplabcut_csv" else "left_wrist"
+    path, spec, _ = changed(name, tmp_path, swap(old, "händ"))
+    path.write_bytes(path.read_bytes().decode().encode("latin-1"))
+    spec["joints"] = {"left_wrist": "händ"}
+    with pytest.raises(SignkinError, match=r"line \d+: byte 0xe4 is not UTF-8.*encoding: latin-1"):
+        read_recording(path, **spec)
+    assert read_recording(path, encoding="latin-1", **spec).joints == ("left_wrist",)
 
 
 def test_kinect_in_millimetres_is_refused(tmp_path):

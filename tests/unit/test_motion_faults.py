@@ -225,6 +225,8 @@ def test_an_undeclared_clock_that_contradicts_the_rate_is_seen(tmp_path):
         ("time (s)", [f"{7 + i * 0.04:.2f}" for i in range(30)], "the clock starts at 7 s"),
         ("Frame No.", [str(i // 2) for i in range(30)], "line 3: Frame No. 0 follows 0"),
         ("name", ["AB"[i % 2] for i in range(30)], "line 3: 2 values in the column name"),
+        ("", [str(i if i < 9 else i + 3) for i in range(30)], "line 11: Unnamed: 0 12 follows 8"),
+        ("index", [str(i if i < 9 else i + 3) for i in range(30)], "line 11: index 12 follows 8"),
         ("user id", [str(i % 2) for i in range(30)], "line 3: 2 values in the column user id"),
         ("file", ["ab"[i // 15] for i in range(30)], "line 17: 2 values in the column file"),
     ],
@@ -235,7 +237,7 @@ def test_undeclared_columns_tell_that_rows_are_not_one_recording_at_25_hz(
     path = table(tmp_path, f"{column},{HEADER}", *(f"{c},{ROW}" for c in cells))
     spec = {"joints": WRISTS, "unit": "m", "rate_hz": 25}
     told(path, match, **spec)
-    assert read_recording(path, ignore=[column], **spec).frames == 30
+    assert read_recording(path, ignore=[column or "Unnamed: 0"], **spec).frames == 30
 
 
 def test_names_that_number_the_rows_are_no_people(tmp_path):
@@ -246,6 +248,20 @@ def test_names_that_number_the_rows_are_no_people(tmp_path):
     assert read_recording(path, **spec).notes == (
         "frame rises by 2: each row counts as one frame of the rate",
     )
+
+
+def test_frames_that_are_numbered_from_later_are_noted(tmp_path):
+    path = table(tmp_path, f"frame,{HEADER}", *(f"{i + 100},{ROW}" for i in range(30)))
+    for declared in ({}, {"frame_column": "frame"}):
+        read = read_recording(path, **SPEC, **declared)
+        assert read.notes == ("the first frame is number 100; times count from there",)
+    path = table(tmp_path, f",{HEADER}", *(f"{i + 100},{ROW}" for i in range(30)))
+    assert read_recording(path, **SPEC).notes == ()
+
+
+def test_the_confidence_of_a_misspelt_joint_is_told(tmp_path):
+    path = table(tmp_path, f"{HEADER},c", *[f"{ROW},0.1"] * 9)
+    told(path, "no joint 'right_wirst'", confidence={"right_wirst": "c"}, **SPEC)
 
 
 def test_numbers_that_mean_not_seen_want_a_declaration(tmp_path):
@@ -263,7 +279,7 @@ def test_shares_of_an_image_and_pixels_are_told_apart(tmp_path):
     flat = {"right_wrist": ["rx", "ry"], "left_wrist": ["lx", "ly"]}
     spec = {"joints": flat, "unit": "px", "rate_hz": 25}
     shares = table(tmp_path, "rx,ry,lx,ly", *(f"{0.1 + i / 100},.2,.3,.4" for i in range(30)))
-    told(shares, "unit: coordinates up to 0.4, which are shares of the image", **spec)
+    told(shares, r"unit: coordinates of 0\.3.* which are shares of the image", **spec)
     size = {**spec, "image_size": [640, 480]}
     assert read_recording(shares, **size).track("right_wrist")[0, 0] == 64
     pixels = table(tmp_path, "rx,ry,lx,ly", *(f"{100 + i},200,300,400" for i in range(30)))

@@ -96,8 +96,15 @@ def a_run(plugin, log):
              wildcards={"corpus": "mini", "shard": f"000{job}"})  # fmt: skip
     told(plugin, "Finished", event=LogEvent.JOB_FINISHED, job_id=1)
     told(plugin, "", event=LogEvent.PROGRESS, done=1, total=2)
-    told(plugin, "Error in rule", logging.ERROR, event=LogEvent.JOB_ERROR, jobid=2, log=[log],
-         rule_name="ingest", wildcards={"corpus": "mini"})  # fmt: skip
+    told(
+        plugin,
+        "Error in rule",
+        logging.ERROR,
+        event=LogEvent.JOB_ERROR,
+        jobid=2,
+        log=[log],
+        rule_name="ingest",
+    )  # without wildcards, as Snakemake writes it
 
 
 def test_of_snakemakes_messages_a_person_sees_steps_and_what_went_wrong(tmp_path):
@@ -112,7 +119,7 @@ def test_of_snakemakes_messages_a_person_sees_steps_and_what_went_wrong(tmp_path
     plugin.close()
     assert out.getvalue().splitlines() == [
         "2 steps to do.",
-        "The step ingest (mini) failed.",
+        "The step ingest (mini 0002) failed.",
         "Command 'x' died with <Signals.SIGKILL: 9>.",
         "1 of 2 steps done in 0:00.",
     ]
@@ -139,7 +146,7 @@ def test_a_dry_run_and_quiet_runs_are_as_snakemake_has_them():
     assert plugin.stream.getvalue() == "what would be done\n" and not plugin.has_filter
     plugin = handler(out := io.StringIO(), quiet=["progress"])
     a_run(plugin, "no.log")
-    assert out.getvalue() == "The step ingest (mini) failed.\n"
+    assert out.getvalue() == "The step ingest (mini 0002) failed.\n"
 
 
 def test_snakemake_finds_the_plugin_and_a_run_asks_for_it(monkeypatch):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from signkin import SignkinError, read_annotation
+from signkin import Interval, SignkinError, read_annotation
+from signkin.io.eaf_write import new_eaf
 
 HEAD = "start,end,label\n"
 EXPORT = "G\t\t00:00:01.500\t1.5\t1500\t00:00:02.000\t2.0\t2000\tA\n"
@@ -17,6 +18,12 @@ def grid(*intervals, low=0, high=3):
         f'"ooTextFile"\n"TextGrid"\n{low}\n{high}\n<exists>\n1\n"IntervalTier"\n"g"\n{low}\n{high}\n'
         f"{len(intervals)}\n{rows}"
     )
+
+
+def eaf(value):
+    made = new_eaf(author="a", date="2020-01-01T00:00:00Z", media_url="v.mp4",
+                   tiers=[("G", None, [Interval(0, 1, "LABEL", "")])]).decode()  # fmt: skip
+    return made.replace("\n", "").replace("?>", "?>\n", 1).replace("LABEL", value)
 
 
 def spans(path, format, **spec):
@@ -74,6 +81,8 @@ def test_what_is_open_is_refused_and_read_as_declared(tmp_path, format, text, ma
         ("textgrid", grid((0, 2, "A"), (1, 3, "B")), "line 15: an interval from 1 to 3 s"),
         ("textgrid", grid((0, 1, "A"), (1, 30, "B")), "line 15: .* the tier at 3 s"),
         ("textgrid", grid((0, 1, "A"), low=0.5), "line 12: an interval from 0 to 1 s"),
+        ("eaf", eaf("A</ANNOTATION_VALUE><ANNOTATION_VALUE>B"), "line 2: an annotation with 2 val"),
+        ("eaf", eaf("A<b>not</b>B"), "line 2: an annotation with 1 values, or elements inside"),
         ("frame_labels", "0\tA\n1\tA\n", "line 1: found '0\\\\tA'"),
     ],
 )
@@ -107,6 +116,7 @@ def test_a_row_twice_counts_once_and_is_listed(tmp_path, format, text):
         ("csv", HEAD + "0.1,0.4,A,\n0.5,0.9,B,,\n", [(0.1, 0.4, "A"), (0.5, 0.9, "B")]),
         ("csv", "id,name," + HEAD + "1,x,0,1,A\n2,y,1,2,B\n", [(0, 1, "A"), (1, 2, "B")]),
         ("csv", HEAD + "0,3,A\n3,6,B\n", [(0, 3, "A"), (3, 6, "B")]),
+        ("csv", "Begin Time - ss.msec;end;label\n1;2;A\n", [(1, 2, "A")]),
         ("textgrid", grid((0, 1, "A"), (2, 3.001, "B")), [(0, 1, "A"), (2, 3.001, "B")]),
         ("elan_tab", '"#file:///a.mp4 -- offset: 0"\n' + EXPORT, [(1.5, 2, "A")]),
     ],
@@ -114,4 +124,5 @@ def test_a_row_twice_counts_once_and_is_listed(tmp_path, format, text):
 def test_what_is_unusual_is_read(tmp_path, format, text, read):
     path = tmp_path / "x"
     path.write_text(text)
-    assert spans(path, format) == read
+    named = {"start_column": "Begin Time - ss.msec", "separator": "semicolon"}
+    assert spans(path, format, **(named if "ss.msec" in text else {})) == read

@@ -72,11 +72,14 @@ def summary(findings: Iterable[Finding]) -> str:
     return CONSISTENT if CONSISTENT in verdicts else UNDECIDABLE
 
 
-def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Finding:
+def over_readings(
+    readings: Sequence[tuple[str, Callable[[], Finding]]], others: str = ""
+) -> Finding:
     """Try the readings that a paper leaves open: inconsistent only if none allows the print.
 
     readings: (what is read so, the check), the usual one first. The finding is that of the first
-    reading that allows the print; if it is not the usual one, it names all that do.
+    reading that allows the print; if it is not the usual one, it names all that do. others: how
+    to name in short what else was tried in vain.
     """
     first = readings[0][1]()
     if first.verdict == CONSISTENT:
@@ -100,5 +103,5 @@ def over_readings(readings: Sequence[tuple[str, Callable[[], Finding]]]) -> Find
     usual = tried[0][1]
     if len(tried) == 1:
         return usual
-    others = ", ".join(name for name, _ in tried[1:])
+    others = others or ", ".join(name for name, _ in tried[1:])
     return replace(usual, why=f"{usual.why}; nor does another reading allow it ({others})")

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import floor
 
 from signkin.audit.findings import CONSISTENT, INCONSISTENT, UNDECIDABLE, Finding
 from signkin.audit.rounding import Interval, allowed, count, ratio, shown
@@ -73,4 +74,15 @@ def grim(
         f"no sum of {n} multiples of {told} gives {mean}; the nearest, {nearest} grains, gives "
         f"{shown(nearest * step / n)}"
     )
-    return Grim(INCONSISTENT, why, mean, shown(nearest * step / n), interval)
+    return Grim(
+        INCONSISTENT, why, mean, shown(nearest * step / n), interval,
+        nearest=_neighbours(values.middle, n, step, mean),
+    )  # fmt: skip
+
+
+def _neighbours(value: Fraction, n: int, step: Fraction, mean: str) -> str:
+    """Return the possible means to both sides of a printed one, with its decimals."""
+    places = len(mean.partition(".")[2]) if "e" not in mean.lower() else 2
+    below = floor(value * n / step)
+    found = [f"{float(k * step / n):.{places}f}" for k in (below, below + 1)]
+    return " or ".join(dict.fromkeys(found))

@@ -79,7 +79,8 @@ def grimmer(
         raise SignkinError(f"the SD is {sd}", expected="a number from 0")
     printed = f"{mean} ({sd})"
     if of_mean.verdict == INCONSISTENT:
-        return Grimmer(INCONSISTENT, of_mean.why, printed, of_mean.recomputed, of_mean.interval)
+        return Grimmer(INCONSISTENT, of_mean.why, printed, of_mean.recomputed, of_mean.interval,
+                       nearest=f"mean {of_mean.nearest}")  # fmt: skip
     step = grain_of(grain, items)
     edges = (ceil(ratio(low) / step) if low else None, floor(ratio(high) / step) if high else None)
     outside = _outside(mean, n, of_mean.sums, edges, (low, high))
@@ -104,7 +105,8 @@ def grimmer(
         why = f"no {n} multiples of {told}{scale} have mean {mean} and {word} {sd} with divisor "
         return Grimmer(
             INCONSISTENT, why + " or ".join(tried), printed,
-            _nearest(n, of_mean.sums, between, step, times_of(n, tried[0], spread)), pairs=pairs,
+            _nearest(n, of_mean.sums, between, step, times_of(n, tried[0], spread),
+                     word, len(sd.partition(".")[2])), pairs=pairs,
         )  # fmt: skip
     return _fits(n, fitting, found, told, step, spread, (printed, str(between), complete))
 
@@ -158,19 +160,25 @@ def _fits(
     return Grimmer(CONSISTENT, why, told[0], recomputed, told[1], pairs=pairs, complete=told[2])
 
 
-def _nearest(n: int, sums: Sequence[int], sd: Interval, step: Fraction, times: int) -> str:
-    """Return the nearest SDs that the first possible sum has, to both sides (no bounds)."""
+def _nearest(
+    n: int, sums: Sequence[int], sd: Interval, step: Fraction, times: int, word: str, places: int
+) -> str:
+    """Return the nearest SDs that the first possible sum has, to both sides (no bounds).
+
+    word: `SD` or `standard error`. places: decimals of the printed one.
+    """
     if not sums:
         return ""
     total, found = sums[0], []
-    middle = round(sd.middle**2 * times / step**2 + Fraction(total * total, n))
-    for way in (-2, 2):
-        for squares in range(middle + (middle - total) % 2, middle + 200 * way, way):
+    below = floor(sd.middle**2 * times / step**2 + Fraction(total * total, n))
+    below -= (below - total) % 2  # as odd or even as the sum
+    for way, start in ((-2, below), (2, below + 2)):
+        for squares in range(start, start + 200 * way, way):
             if possible(n, total, squares, steps=Steps(2_000)):
                 root = float((squares - Fraction(total * total, n)) * step**2 / times) ** 0.5
-                found.append(f"{root:.6g}")
+                found.append(f"{root:.{places}f}" if places < 9 else f"{root:.6g}")
                 break
-    return f"nearest possible: {' or '.join(dict.fromkeys(found))}" if found else ""
+    return f"nearest possible: {word} {' or '.join(dict.fromkeys(found))}" if found else ""
 
 
 def _single(sd: str, sums: Sequence[int]) -> Grimmer:

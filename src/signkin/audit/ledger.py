@@ -19,6 +19,7 @@ from signkin.audit.findings import (
     BY_CONSTRUCTION,
     CONSISTENT,
     DEPENDS,
+    DIGITS,
     FAILS,
     HOLDS,
     INCONSISTENT,
@@ -283,6 +284,8 @@ def _told(done: _Done) -> str:
     if len(done.findings) <= 3:
         told = "; ".join(f.why for f in good)
     parts = [told] + [f"{f.item}: {f.verdict}, {f.why}" for f in others]
+    if any(f.verdict == INCONSISTENT for f in others):  # what does not fit comes first
+        parts = [*parts[1:], f"{len(good)} of {len(done.findings)} consistent" if good else ""]
     return "; ".join(part for part in parts if part)
 
 
@@ -314,6 +317,7 @@ def _check_rows(lead: Mapping[str, str], done: _Done) -> list[dict[str, str]]:
             "item": f.item,
             "reads": done.check.reads,
             **{name: getattr(f, name) for name in _SHOWN},
+            **({"severity": f.severity or DIGITS} if f.verdict == INCONSISTENT else {}),
         }
         for f in findings
     ]

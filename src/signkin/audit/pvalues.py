@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
 from math import inf, sqrt
 
+import numpy as np
 from scipy import stats
 
 from signkin.audit.findings import (
@@ -162,10 +163,23 @@ def p_uncorrected(
             raise SignkinError(f"epsilon is {epsilon}", expected="a number up to 1, or open")
         ends = (max(float(given.low), 1 / first), min(float(given.high), 1.0))
         ends = (min(ends), max(ends))
-    steps = [ends[0] + (ends[1] - ends[0]) * i / 64 for i in range(65)]
-    found = [_sf("F", max(f, 0.0), (e * first, e * second)) for f in (low, high) for e in steps]
+    steps = np.linspace(*ends, 65)
+    found = [p for f in (low, high) for p in stats.f.sf(max(f, 0.0), steps * first, steps * second)]
     middle = sum(ends) / 2
-    return Range(_sf("F", value, (middle * first, middle * second)), min(found), max(found))
+    return Range(
+        _sf("F", value, (middle * first, middle * second)), float(min(found)), float(max(found))
+    )
+
+
+def correction_told(statistic: str, df: Sequence[Number], p: str) -> str:
+    """Return that a correction of repeated measures could give a p, where it could; or nothing."""
+    read = printed_p(p)
+    if read.sign != "=" or float(exactly(str(df[0]))) <= 1:
+        return ""
+    found = p_uncorrected(statistic, df)
+    if not found.low <= float(exactly(read.digits)) <= found.high:
+        return ""
+    return "; a correction of repeated measures, with df printed uncorrected, could (epsilon: open)"
 
 
 def p_from(kind: str, statistic: str, *df: Number, rounding: str = "nearest") -> Range:
@@ -244,7 +258,32 @@ def p_agrees(
         found = partial(exact_tail, statistic, groups, rounding)
         readings.append(("the exact test", partial(_compared, kind, statistic, df, wanted, alpha,
                                                    rounding, found, "exact")))  # fmt: skip
-    return over_readings(readings)
+    words = [word for word, there in (
+        ("one-tailed", "one" in sides and sides[0] != "one"),
+        ("degrees of freedom rounded", whole), ("n in brackets", kind == "r"),
+        ("the exact test", kind == "H" and bool(groups)),
+        ("degrees of freedom uncorrected", kind == "F" and bool(epsilon)),
+    ) if there]  # fmt: skip
+    out = over_readings(readings, ", ".join(words))
+    return replace(out, hand=_in_r(kind, statistic, df, "one" in out.settings))
+
+
+def _in_r(kind: str, statistic: str, df: Sequence[Number], one: bool) -> str:
+    """Return how to redo a p in R, from the printed digits."""
+    value = re.sub(r"^[<>=\s]+", "", statistic).replace("\u2212", "-")
+    size, dfs = value.lstrip("-"), ", ".join(str(d) for d in df)
+    times = "" if one else "2 * "
+    if kind == "F":
+        told = f"pf({value}, {dfs}, lower.tail = FALSE)"
+    elif kind in ("chi2", "H", "Q"):
+        told = f"pchisq({value}, {dfs}, lower.tail = FALSE)"
+    elif kind == "z":
+        told = f"{times}pnorm(-{size})"
+    elif kind == "r":
+        told = f"{times}pt(-{size} * sqrt({dfs} / (1 - {size}^2)), {dfs})"
+    else:
+        told = f"{times}pt(-{size}, {dfs})"
+    return f"in R {told}"
 
 
 def _compared(
@@ -273,19 +312,20 @@ def _compared(
     why += f", {name}" if any(word in name for word in told_of) else ""
     if fits:
         return Finding(CONSISTENT, why, f"p {bare}", f"{found.value:.6g}", found.interval,
-                       settings=f"df {told}" if df else "")  # fmt: skip
+                       settings=_settings(told, name))  # fmt: skip
     why += ", not as printed: one of the two is wrong"
     why += f", and they disagree about {alpha}" if differs else ""
     near = f"p = {shown(found.value, 3)}"
     if p.sign == "=" and kind != "H":
         back = statistic_from(kind, p.digits, *(float(exactly(str(d))) for d in df))
         near += f", or {kind} of {shown(back.low, 4)} to {shown(back.high, 4)}"
-    if kind == "F" and name == "printed" and float(exactly(str(df[0]))) > 1:
-        other = p_uncorrected(statistic, df, rounding)
-        if p.sign == "=" and other.low <= float(value) <= other.high:
-            near += ("; a correction of repeated measures whose degrees of freedom are printed "
-                     "uncorrected could give it (epsilon: open)")  # fmt: skip
     return Finding(
         INCONSISTENT, why, f"p {bare}", f"{found.value:.6g}", found.interval, nearest=near,
-        settings=f"df {told}" if df else "", severity=DECISION if differs else DIGITS,
+        settings=_settings(told, name), severity=DECISION if differs else DIGITS,
     )  # fmt: skip
+
+
+def _settings(df: str, name: str) -> str:
+    return ", ".join(
+        part for part in (f"df {df}" if df else "", name) if part and part != "printed"
+    )

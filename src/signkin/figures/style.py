@@ -57,10 +57,12 @@ def settle(figure: Figure) -> None:
     """Lay a figure out once, and round where its axes came to lie.
 
     The constrained layout's solver adds up in an order that goes by places in memory: last
-    digits differ from run to run, and SVG identifiers are made of them. No layout engine is left:
-    with one, even with the one that does nothing, matplotlib draws twice for each file.
+    digits differ from run to run, and SVG identifiers are made of them. Nothing is drawn for it,
+    and no engine is left: with one, even if it does nothing, matplotlib draws twice a file.
     """
-    figure.draw_without_rendering()
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
     with mpl.rc_context(NO_LAYOUT):
         figure.set_layout_engine(None)
     for ax in figure.axes:

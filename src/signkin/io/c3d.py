@@ -74,7 +74,8 @@ def read_c3d(
         kept = [k for k, i in enumerate(chosen) if labels[i] not in about.no_positions]
         names, chosen = tuple(names[k] for k in kept), [chosen[k] for k in kept]
         notes.append(f"{len(others)} points that are angles, forces or the like are left out")
-    points = np.array(frames, dtype=float)[:, chosen]
+    with np.errstate(invalid="ignore"):  # a damaged file may hold signalling NaNs
+        points = np.array(frames, dtype=float)[:, chosen]
     positions = np.ascontiguousarray(points[..., :3])
     positions[points[..., 3] < 0] = np.nan
     notes += zeros_to_gaps(positions)

@@ -15,7 +15,7 @@ from signkin.rows import composed
 
 # Beyond this, in any unit, a coordinate is a broken number and no place.
 FURTHEST = 1e9
-# Pixels that are all nearer to 0 than this are shares of the image.
+# Pixels of which nearly all are nearer to 0 than this are shares of the image.
 LARGEST_SHARE = 2.0
 LEAST_FRAMES = 10  # fewer show too little of an image to judge by
 
@@ -70,10 +70,10 @@ def check_shares(positions: NDArray[np.float64], unit: str, sized: bool) -> None
     positions: (F, J, 3), canonical. sized: whether the format has an image_size.
     """
     if unit == "px" and len(positions) >= LEAST_FRAMES:
-        there = np.abs(positions[np.isfinite(positions)])
-        if there.size and 0 < there.max() <= LARGEST_SHARE:
+        there = np.abs(positions[np.isfinite(positions) & (positions != 0)])
+        if there.size and np.percentile(there, 95) <= LARGEST_SHARE:
             raise SignkinError(
-                f"coordinates up to {there.max():.3g}, which are shares of the image",
+                f"coordinates of {np.median(there):.3g}, which are shares of the image",
                 place="unit",
                 expected="pixels, or the image's size",
                 todo="Declare options: {image_size: [WIDTH, HEIGHT]}." if sized else None,

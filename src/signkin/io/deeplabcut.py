@@ -47,9 +47,10 @@ def read_deeplabcut_csv(
     confidence_threshold: float = LIKELY,
     separator: str = "comma",
     decimal: str | None = None,
+    encoding: str | None = None,
 ) -> SourceMotion:
     """Read a table as text. Less likely than confidence_threshold is a gap."""
-    layout = Layout(separator, decimal)
+    layout = Layout(separator, decimal, encoding=encoding)
     rows = header_of(path, layout, 4)
     titles = [row[0].lower() for row in rows]
     if "bodyparts" not in titles or "coords" not in titles:

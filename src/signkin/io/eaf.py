@@ -253,6 +253,12 @@ def _tag(annotation: Element) -> Tag:
         )
     element = inside[0]
     values = element.all("ANNOTATION_VALUE")
+    if len(values) > 1 or any(value.children for value in values):
+        raise SignkinError(
+            f"an annotation with {len(values)} values, or elements inside its text",
+            place=f"line {element.line}",
+            expected="one ANNOTATION_VALUE, of text",
+        )
     value = None if not values else values[0].text
     key = element.get("ANNOTATION_ID") or "without id"
     if element.tag == "REF_ANNOTATION":

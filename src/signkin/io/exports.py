@@ -19,6 +19,8 @@ from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
 from signkin.io.text import number, quoted, text_lines
 
+# Keys of Qualisys that are read; others, such as EVENT, may come again.
+_USED = ("NO_OF_FRAMES", "NO_OF_MARKERS", "FREQUENCY", "DATA_INCLUDED", "MARKER_NAMES")
 # Further down no maker's header goes.
 _LONGEST_HEADER = 60
 
@@ -49,7 +51,7 @@ def read_qualisys_tsv(
         if line > _LONGEST_HEADER:
             raise _no_header("MARKER_NAMES and the frames", line)
         cells = [cell.strip() for cell in row[1:]]
-        if told.setdefault(key.upper(), cells) != cells:
+        if told.setdefault(key.upper(), cells) != cells and key.upper() in _USED:
             raise SignkinError(
                 f"{key} stands twice, with two values", place=f"line {line}", expected="one value"
             )
@@ -151,8 +153,13 @@ def read_vicon_csv(
     width = max(len(head[3][1]), *(place[-1] + 1 for place in columns))
     while width > columns[-1][-1] + 1 and not head[3][1][width - 1]:
         width -= 1
+    sub_frames = head[3][1][1:2] == ["Sub Frame"]
     points = read_markers(
-        _section(rows), _marker_head(labels, columns, width, rate, units), layout, joints, part
+        _section(rows, sub_frames),
+        _marker_head(labels, columns, width, rate, units),
+        layout,
+        joints,
+        part,
     )
     return source_motion(points)
 
@@ -167,13 +174,15 @@ def _marker_head(
     )
 
 
-def _section(rows: Iterator[tuple[int, list[str]]]) -> Iterator[tuple[int, list[str]]]:
+def _section(
+    rows: Iterator[tuple[int, list[str]]], sub_frames: bool
+) -> Iterator[tuple[int, list[str]]]:
     """Yield rows up to the title of the next section; trajectories again are an error."""
     for line, row in rows:
         title = row[0].strip()
         if title and title[0].isalpha() and not any(cell.strip() for cell in row[1:]):
             break
-        if len(row) > 1 and number(row[1].strip()) not in (None, 0):
+        if sub_frames and len(row) > 1 and number(row[1].strip()) not in (None, 0):
             raise SignkinError(
                 f"sub frame {quoted(row[1])}", place=f"line {line}", expected="0: whole frames"
             )

@@ -9,6 +9,7 @@ A format is one file in this folder: it registers a function with
 from __future__ import annotations
 
 import inspect
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +28,16 @@ from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
+# What people bring and no reader reads -> what to do.
+CONVERTED = {
+    ".asf": "It is the skeleton of an .amc file: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".amc": "With its .asf it is one recording: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".fbx": "Export it as BVH (Blender, MotionBuilder).",
+    ".mvnx": "Export it as BVH or C3D from MVN Analyze.",
+    ".xlsx": "Save it as CSV.",
+    ".xls": "Save it as CSV.",
+    ".mat": "Save the positions as .npy, (frames, points, 3): scipy.io.loadmat, numpy.save.",
+}
 METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "ft": 0.3048}
 # A printed frame time such as 0.0333333 s is 30.00003 Hz: a declared rate may be this far off.
 RATE_TOLERANCE = 1e-3
@@ -137,7 +148,7 @@ def read_recording(
     Returns positions in metres (or pixels), orientations where the file has them.
     Raises SignkinError with the file and the place in it.
     """
-    path = Path(path)
+    path = _file(path)
     part = None if part is None else str(part)
     wanted = _find(_MOTION, path, format, "motion")
     try:
@@ -182,7 +193,7 @@ def read_recording(
 def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
     """Refuse an option that a motion reader does not have."""
     shared = ("joints", "part")
-    parameters = inspect.signature(reader).parameters.values()
+    parameters = list(inspect.signature(reader).parameters.values())
     options = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in shared]
     unknown = [name for name in given if name not in options]
     if unknown:
@@ -192,6 +203,20 @@ def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
             place="options",
             expected=listed([*options, "clock"], 40),
         )
+    for parameter in parameters:
+        value = given.get(parameter.name)
+        if parameter.annotation in ("bool", "bool | None") and not isinstance(value, bool | None):
+            raise SignkinError(
+                f"{parameter.name} is {quoted(value)}",
+                place="options",
+                expected="true or false",
+            )
+
+
+def _file(path: object) -> Path:
+    if not isinstance(path, str | os.PathLike):
+        raise SignkinError(f"the path is {quoted(path)}", expected="a file's name")
+    return Path(path)
 
 
 def _clock(source: SourceMotion, rate_hz: float, clock: str | None) -> tuple[str, ...]:
@@ -240,10 +265,10 @@ def read_annotation(
 
     Raises SignkinError with the file and the tier.
     """
-    path = Path(path)
+    path = _file(path)
     reader = _find(_ANNOTATION, path, format, "annotation")
     check_annotation_options(reader, options, path)
-    asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
+    asked = _asked(tiers, path)
     spec = {"tiers": asked, "name": name, "part": part, **options}
     annotation: Annotation = _guarded(reader, path, False, **spec)
     try:
@@ -251,6 +276,18 @@ def read_annotation(
         return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
     except SignkinError as error:
         raise error.at(file=path) from error
+
+
+def _asked(tiers: Any, path: Path) -> tuple[TierWish, ...] | None:
+    """Return the tiers that are asked for, None for all."""
+    if tiers is None or isinstance(tiers, str | Mapping):
+        return None if tiers is None else (tiers,)
+    if isinstance(tiers, Sequence) and all(isinstance(t, str | Mapping) for t in tiers):
+        return tuple(tiers)
+    raise SignkinError(
+        f"the tiers are {quoted(tiers)}", file=path, place="tiers",
+        expected="names, or mappings of pattern and participant",
+    )  # fmt: skip
 
 
 def in_file_axes(
@@ -366,6 +403,13 @@ def _find(
     for reader, suffixes in readers.values():
         if path.suffix.lower() in suffixes:
             return reader
+    if what == "motion" and path.suffix.lower() in CONVERTED:
+        raise SignkinError(
+            f"{path.suffix.lower()} is not read",
+            file=path,
+            expected="a motion format of docs/adding-a-corpus.md",
+            todo=CONVERTED[path.suffix.lower()],
+        )
     known = sorted(suffix for _, suffixes in readers.values() for suffix in suffixes)
     raise SignkinError(
         f"the suffix {quoted(path.suffix)} tells no {what} format",

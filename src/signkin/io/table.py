@@ -28,6 +28,7 @@ SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t", "space": " "}
 GAPS = frozenset({"", "na", "n/a", "null", "none"}) | NOT_A_NUMBER
 # Line numbers are an index that starts at line 2: that of the row below a header of one line.
 FIRST_LINE = 2
+NAMELESS = "Unnamed: 0"  # as pandas calls a first column without a name: its numbers of rows
 _DIGITS = set("0123456789+-.eE")
 
 
@@ -181,7 +182,10 @@ def _names(path: Path, layout: Layout, separator: str) -> tuple[list[str], int]:
     while width and not any(row[width - 1 : width] not in ([], [""]) for row in head):
         width -= 1
     if layout.header_rows == 1:
-        return head[0][:width], line + 1
+        names = head[0][:width]
+        if width > 1 and not names[0] and NAMELESS not in names:
+            names[0] = NAMELESS
+        return names, line + 1
     return [" ".join(c for c in cells if c) for cells in spread(head, width)], line + 1
 
 

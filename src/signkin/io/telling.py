@@ -17,13 +17,15 @@ from numpy.typing import NDArray
 
 from signkin.clock import SECONDS_PER, Clock, clock_of
 from signkin.errors import SignkinError, listed
-from signkin.io.table import FIRST_LINE, column_numbers, finest_half_digit, known_column
+from signkin.io.table import FIRST_LINE, NAMELESS, column_numbers, finest_half_digit, known_column
 from signkin.io.text import number, quoted
 from signkin.io.text_rows import TextTable
 from signkin.rows import plain_name
 
 FRAMES = frozenset({"frame", "frames", "frame_number", "frame_no", "frame_nr", "frame_num",
-                    "frame_id", "frame_index", "frame_idx", "framenumber", "frameno"})  # fmt: skip
+                    "frame_id", "frame_index", "frame_idx", "framenumber", "frameno",
+                    "index", plain_name(NAMELESS)})  # fmt: skip
+ROWS = frozenset({"index", plain_name(NAMELESS)})  # pandas' numbers of rows
 OWNERS = frozenset({"person", "person_id", "subject", "subject_id", "participant",
                     "participant_id", "signer", "signer_id", "speaker", "individual", "track_id",
                     "video", "take", "recording", "trial", "session", "clip"})  # fmt: skip
@@ -133,11 +135,22 @@ def _frames(rows: pd.DataFrame, column: str) -> list[str]:
             f"{column} {frames[wrong + 1]:g} follows {frames[wrong]:g}",
             place=f"line {rows.index[wrong + 1] + FIRST_LINE}",
             expected="frames that rise evenly, or several recordings that are told apart",
-            todo=f"Declare options: {{frame_column: {column}}}, or recording_column.",
+            todo=f"Declare options: {{frame_column: {column}}}, or recording_column; or "
+            f"{{ignore: [{column}]}}.",
         )
-    if usual is None or usual == 1 or wrong is not None:
+    notes = []
+    if usual is not None and usual != 1 and wrong is None:
+        notes.append(f"{column} rises by {usual:g}: each row counts as one frame of the rate")
+    if usual is not None and wrong is None and plain_name(column) not in ROWS:
+        notes += first_frame_note(frames[0])
+    return notes
+
+
+def first_frame_note(number: float | None) -> list[str]:
+    """Return the note on frames that are numbered from later than 1, none where they are not."""
+    if number is None or number <= 1:
         return []
-    return [f"{column} rises by {usual:g}: each row counts as one frame of the rate"]
+    return [f"the first frame is number {number:g}; times count from there"]
 
 
 def _clock(rows: pd.DataFrame, column: str, unit: str | None) -> Clock | None:

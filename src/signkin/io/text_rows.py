@@ -18,6 +18,7 @@ from signkin.errors import SignkinError, listed
 from signkin.rows import check_length, composed, excel_separator, table_rows
 
 SEPARATORS = (",", ";", "\t")
+NAMED = {"comma": ",", "semicolon": ";", "tab": "\t"}
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?", re.ASCII)
 # h:m:s or m:s; the seconds may have decimals, or frames behind another colon or semicolon.
 _CLOCK = re.compile(
@@ -172,9 +173,12 @@ def split_rows(text: str, separator: str, *, keep_blank: bool = False, first: in
 
     An empty line has one empty cell. first: the line to start with.
     """
+    separator = NAMED.get(separator, separator) if isinstance(separator, str) else separator
     if not isinstance(separator, str) or len(separator) != 1 or separator in '"\n':
         raise SignkinError(
-            f"the separator is {separator!r}", place="separator", expected="one character"
+            f"the separator is {separator!r}",
+            place="separator",
+            expected=f"{listed(NAMED)}, or one character",
         )
     lines = text.removesuffix("\n").split("\n")[first - 1 :]
     rows = table_rows(lines, separator, first, "none" if keep_blank else "cells")

@@ -117,6 +117,7 @@ def read_openpose_csv(
     confidence_threshold: float = 0.0,
     separator: str = "comma",
     decimal: str | None = None,
+    encoding: str | None = None,
 ) -> SourceMotion:
     """Read a table without a header: x, y, confidence of one key point after the other.
 
@@ -124,7 +125,7 @@ def read_openpose_csv(
     last one's confidence may be missing. 0, 0 or confidence 0 is a gap. image_size: for
     coordinates from 0 to 1.
     """
-    layout = Layout(separator, decimal, header_rows=0)
+    layout = Layout(separator, decimal, header_rows=0, encoding=encoding)
     first = header_of(path, layout, 1)[0]
     width = len(first)
     if width % 3 == 1 or width < 2:

@@ -28,8 +28,9 @@ from signkin.io.table import (
     read_text_table,
     rows_of_part,
 )
-from signkin.io.telling import TELLING, ignored, times_of, told_by
+from signkin.io.telling import TELLING, first_frame_note, ignored, times_of, told_by
 from signkin.io.text import quoted
+from signkin.joints import is_known
 from signkin.recording import Recording
 
 __all__ = [
@@ -87,13 +88,7 @@ def read_wide_csv(
     ignore: columns whose names mean something else than they do elsewhere (see `telling`).
     """
     of_joint = _columns_of(joints)
-    if confidence is not None and not isinstance(confidence, Mapping):
-        raise SignkinError(
-            f"confidence is {quoted(confidence)}",
-            place="options, confidence",
-            expected="joint: column",
-        )
-    trust = {joint: str(c) for joint, c in (confidence or {}).items() if joint in of_joint}
+    trust = _confidence(confidence, of_joint)
     layout = Layout(separator, decimal, skip_rows, header_rows, encoding, missing_texts(missing))
     others = [c for c in (recording_column, frame_column, time_column) if c is not None]
     wanted = [*others, *trust.values(), *(c for columns in of_joint.values() for c in columns)]
@@ -105,6 +100,7 @@ def read_wide_csv(
         order = np.argsort(frames, kind="stable")
         rows = rows.iloc[order]
         _check_frames(frames[order], rows.index.to_numpy())
+        told = replace(told, notes=(*told.notes, *first_frame_note(frames[order][0])))
     times = None if time_column is None else times_of(rows, time_column)
     motion = source_motion(
         Points(
@@ -129,6 +125,22 @@ def read_wide_csv(
     if told.clock is None:
         return motion
     return replace(motion, start_s=told.clock.start_s, clock_place=told.place)
+
+
+def _confidence(declared: Any, of_joint: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Return joint -> column of confidence, of the joints that are read."""
+    if declared is not None and not isinstance(declared, Mapping):
+        raise SignkinError(
+            f"confidence is {quoted(declared)}",
+            place="options, confidence",
+            expected="joint: column",
+        )
+    for joint in declared or {}:
+        if joint not in of_joint and not is_known(str(joint)):
+            raise SignkinError(
+                f"no joint {quoted(joint)}", place="options, confidence", expected="a joint's name"
+            )
+    return {joint: str(c) for joint, c in (declared or {}).items() if joint in of_joint}
 
 
 def _columns_of(joints: Mapping[str, Sequence[str]] | None) -> dict[str, list[str]]:

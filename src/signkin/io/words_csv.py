@@ -99,8 +99,9 @@ def _check_unit(table: TextTable, start_column: str, last: str, lasts: bool) -> 
     last: the column of ends, or of durations where it `lasts`.
     """
     for column in (start_column, last):
-        named = {UNIT_WORDS[w] for w in plain_name(column).split("_") if w in UNIT_WORDS}
-        if named - {"s"}:
+        words = plain_name(column).split("_")
+        named = {UNIT_WORDS[word] for word in words if word in UNIT_WORDS}
+        if named - {"s"} and "ss" not in words:  # ELAN's ss.msec are seconds
             raise SignkinError(
                 f"{column!r} is named as {listed(sorted(named))}",
                 place="time_unit",

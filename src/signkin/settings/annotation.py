@@ -101,7 +101,9 @@ class FrameLabelOptions(TextOptions):
     first_frame: Annotated[int, Field(ge=0)] = key(0, "Number of the first frame.")
     header: bool = key(True, "Whether columns have names, which are tiers.")
     blank: Annotated[tuple[str, ...], Field(strict=False)] = key(("",), "Labels that are no sign.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
     ignore: Names = key((), "Columns whose names mean something else here.")
 
 
@@ -119,7 +121,9 @@ class CsvOptions(TextOptions):
     participant_column: Text | None = key(None, "Column of participants.")
     time_unit: Literal["s", "ms", "frames", "timecode"] | None = key(None, "What times are; s.")
     end_inclusive: bool = key(False, "Whether the end is the last frame of the interval.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
     ignore: Names = key((), "Columns whose names mean something else here.")
     decimal: Literal[".", ","] | None = key(None, "The decimal sign, where it is not plain.")
 

@@ -151,6 +151,10 @@ class CorpusDescription(Section):
     left_handed: Annotated[tuple[Text, ...], Field(strict=False)] = key(
         (), "Signers whose dominant hand is the left one."
     )
+    tagged_hand: Literal["right", "left"] | None = key(
+        None, "The hand that the tags of signs are of, where one tier has those of one hand alone: "
+        "they are held against this hand's speed minima.",
+    )  # fmt: skip
     annotation: Annotation | None = key(
         None, "How annotation files are read; without it the corpus has no tags."
     )

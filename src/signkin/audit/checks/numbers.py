@@ -94,7 +94,10 @@ def p_value(
             one = pvalues.p_agrees(kind, changed[kind], dfs, changed["p"], alpha, rounding, "two")
             return one.verdict == CONSISTENT
 
-        found = replace(found, nearest=f"{found.nearest}; {one_digit(cells, fits)}")
+        near = f"{found.nearest}; {one_digit(cells, fits)}"
+        if kind == "F" and not epsilon:
+            near += pvalues.correction_told(cells["F"], [context.text(d) for d in df], cells["p"])
+        found = replace(found, nearest=near)
     return [found]
 
 

@@ -82,9 +82,7 @@ def grim(
     """
     want_settings(grain, items, rounding=rounding)
 
-    def fits(cells: Mapping[str, str]) -> bool:
-        found = grim_of(cells["mean"], cells["n"], grain, rounding, items)
-        return found.verdict != INCONSISTENT
+    fits = partial(_grim_fits, grain, rounding, items)
 
     def judge(row: Row) -> Finding:
         found = grim_of(row["mean"], row["n"], grain, rounding, items)
@@ -93,11 +91,23 @@ def grim(
         nearest = ""
         if found.verdict == INCONSISTENT:
             near = one_digit({"mean": row["mean"], "n": row["n"]}, fits)
-            nearest = f"{found.recomputed}; {near}"
+            nearest = f"{found.nearest}; {near}"
         settings = _settings(grain, items, rounding)
         return replace(found, settings=settings, hand=hand, nearest=nearest)
 
     return each(rows_of(context, table, {"n": n, "mean": mean}, suffixes), judge)
+
+
+def _by_hand(row: Row) -> str:
+    return (
+        f"{row['mean']} x {row['n']} / grain is near a whole number, the sum s; "
+        f"{row['sd']}^2 x ({row['n']} - 1) / grain^2 + s^2 / {row['n']} is, too, odd or even as s"
+    )
+
+
+def _grim_fits(grain: str, rounding: str, items: str, cells: Mapping[str, str]) -> bool:
+    found = grim_of(cells["mean"], cells["n"], grain, rounding, items)
+    return found.verdict != INCONSISTENT
 
 
 def _settings(grain: str, items: str, rounding: str, divisor: str = "") -> str:
@@ -143,8 +153,14 @@ def grimmer(
         if row["n"] == "1" and row.file is not None:
             return replace(found, why=f"{row.file.name}, {row.place}: {found.why}", recomputed="",
                            interval="")  # fmt: skip
-        return replace(found, settings=_settings(grain, items, rounding, asked),
-                       nearest=found.recomputed if found.verdict == INCONSISTENT else "",
+        nearest = found.nearest
+        if nearest:  # the mean fails alone
+            digits = {"mean": row["mean"], "n": row["n"]}
+            nearest += f"; {one_digit(digits, partial(_grim_fits, grain, rounding, items))}"
+        elif found.verdict == INCONSISTENT:
+            nearest = found.recomputed
+        return replace(found, settings=_settings(grain, items, rounding, asked), nearest=nearest,
+                       hand=_by_hand(row),
                        recomputed="" if found.recomputed.startswith("nearest") else
                        found.recomputed)  # fmt: skip
 

@@ -78,7 +78,7 @@ def caption(orders: pd.DataFrame, rates: pd.DataFrame, tests: pd.DataFrame) -> s
         "gives, Poisson events with as many false positives, and the same boundaries, each "
         "trajectory's shifted in a circle, so that they keep their number and spacing. It is not "
         "the same at all orders: fewer boundaries make a larger ratio by themselves. Bottom: hit "
-        f"rate less that of chance{_peaks(rates)}. {told}."
+        f"rate less that of chance{_peaks(rates)}, ± standard error of the hit rate. {told}."
     )
 
 
