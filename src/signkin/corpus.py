@@ -20,6 +20,7 @@ import yaml
 
 from signkin import joints as joint_names
 from signkin.annotation import TierWish, tier_key
+from signkin.corpus_tiers import filled, is_by_hand
 from signkin.errors import SignkinError, listed
 from signkin.owner_rows import read_owner_table
 from signkin.settings.checks import checked
@@ -175,8 +176,8 @@ class Corpus:
         """
         out: dict[str, dict[str, TierWish]] = {}
         for role, wanted in self.tiers.items():
-            by_hand = wanted if _is_by_hand(wanted) else {"both": wanted}
-            out[role] = {hand: _filled(wish, entry) for hand, wish in by_hand.items()}
+            by_hand = wanted if is_by_hand(wanted) else {"both": wanted}
+            out[role] = {hand: filled(wish, entry) for hand, wish in by_hand.items()}
         return out
 
     def dominant_hand(self, entry: Entry) -> str:
@@ -196,7 +197,7 @@ class Corpus:
     def annotator_file(self, entry: Entry, annotator: str) -> str:
         """Return the file with an annotator's tags of a recording."""
         wish = self.annotators[annotator].get("file")
-        return entry.annotation if wish is None else str(_filled(wish, entry))
+        return entry.annotation if wish is None else str(filled(wish, entry))
 
     def annotator_files(self) -> list[str]:
         """Return the files of further annotators, each once."""
@@ -207,20 +208,8 @@ class Corpus:
     def annotator_spec(self, entry: Entry, annotator: str) -> dict[str, Any]:
         """Return the arguments of `read_annotation` for an annotator's tags of a recording."""
         tier = self.annotators[annotator].get("tier", self.settings["annotation"].get("sign_tier"))
-        wishes = () if tier is None else (_filled(tier, entry),)
+        wishes = () if tier is None else (filled(tier, entry),)
         return {**self.annotation_spec(entry), "tiers": wishes}
-
-
-def _is_by_hand(wanted: Any) -> bool:
-    return isinstance(wanted, Mapping) and not {"pattern", "participant"} & set(wanted)
-
-
-def _filled(wish: TierWish, entry: Entry) -> TierWish:
-    if isinstance(wish, Mapping):
-        return {key: str(_filled(value, entry)) for key, value in wish.items()}
-    for key in ("signer", "recording", "part"):
-        wish = wish.replace(f"{{{key}}}", getattr(entry, key))
-    return wish
 
 
 def load_corpora(folder: Path, names: list[str] | None = None) -> dict[str, Corpus]:
