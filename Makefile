@@ -3,11 +3,13 @@
 # make utterance CORPUS=dgs-1984189 GLOSSES="CAT3 BIRD1"   a synthetic utterance ($$ for a dollar)
 # make fetch CORPUS=...   get the files of a corpus that have a public address, and verify them
 # make test          set up and pass the tests
+# make test-slurm    the workflow on a SLURM cluster of two nodes on this machine (Debian, root)
 # make fuzz          10,000 damaged files of each format against its reader (`make test`: 500)
+# make test-faults   faults in a run, 20 kills among them: a table (`make test`: five kills)
 # make lint          its first half: style, types, import contracts
 # make coverage      which lines the unit tests run: a table, and build/coverage/index.html
 # make docs          the pages of docs/ and the API as a site: build/docs/index.html
-# make numbers DATA=folder   write the numbers of docs/interpretations.md anew (after make DATA=folder)
+# make numbers DATA=folder   write the numbers of docs/interpretations.md and README.md anew (after make DATA=folder)
 # make bench         time the binning engine beside its peers (benchmarks/README.md)
 # make audit-draws   10,000 data sets that exist for each check on print: how many are accused
 # make settings      write config.yaml, its schema and docs/configuration.md from the models
@@ -22,7 +24,7 @@ PIP := $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-ver
 ifneq ($(DATA),)
 export SIGNKIN_DATA := $(DATA)
 endif
-.PHONY: all utterance fetch test fuzz lint unit coverage docs numbers settings bench lock bench-lock clean
+.PHONY: all utterance fetch test test-faults test-slurm fuzz lint unit coverage docs numbers settings bench lock bench-lock clean
 .DELETE_ON_ERROR:
 
 all: $(VENV)/ready
@@ -56,7 +58,14 @@ lint: $(VENV)/ready
 
 unit: $(VENV)/ready
 	.ci/chromium
-	$(BIN)/pytest -n 2 --dist loadfile $(ARGS)
+	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
+
+test-faults: $(VENV)/ready
+	cd tests && PYTHONPATH=$(CURDIR)/src:$(CURDIR)/tests ../$(BIN)/python -m support.faults $(ARGS)
+
+test-slurm: $(VENV)/ready
+	.ci/slurm
+	SIGNKIN_SLURM=whole $(BIN)/pytest -v tests/workflow/test_slurm.py $(ARGS)
 
 fuzz: $(VENV)/ready
 	SIGNKIN_FUZZ=10000 $(BIN)/pytest -n 2 --dist load tests/unit/test_motion_fuzz.py \
@@ -74,6 +83,7 @@ docs: $(VENV)/ready
 
 numbers: $(VENV)/ready
 	$(BIN)/python -m tools.numbers results '$(SIGNKIN_DATA)' $(ARGS)
+	$(BIN)/python -m tools.readme results
 
 audit-draws: $(VENV)/ready
 	$(BIN)/python tests/support/audit_draws.py $(or $(ARGS),10000)

@@ -20,6 +20,11 @@ hypothesis.settings.register_profile("signkin", deadline=None)
 hypothesis.settings.load_profile("signkin")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put whole runs first: with several workers, the last of them would be waited for."""
+    items.sort(key=lambda item: "workflow" not in item.path.parts)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def kernels_of_these_sources() -> None:
     """Forget machine code of older sources, which numba would go on with."""

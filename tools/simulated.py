@@ -42,6 +42,10 @@ def write_lsf(folder: Path) -> None:
     for entry, recording in zip(corpus.entries, simulated.recordings, strict=True):
         lsf.write_motion(recording, folder / entry.motion)
         lsf.write_tags(recording, folder / entry.annotation)
+        rng = seeds.stream(SETTINGS.seed, corpus.name, "second tagger", recording.name)
+        for annotator in corpus.annotators:
+            path = folder / corpus.annotator_file(entry, annotator)
+            lsf.write_second_tags(recording, path, rng)
     simulated.truth.to_csv(folder / "truth.csv", index=False)
     simulated.design.to_csv(folder / "design.csv", index=False)
 

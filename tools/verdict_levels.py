@@ -3,7 +3,8 @@
 python -m tools.verdict_levels [CASES]
 
 At the bound itself a two-sided rule of 95 % may say either in 2.5 % of cases each. Rows come from
-8 signers with 5 signs each, which share what a signer and a sign do (half of the variance).
+8 signers with 5 signs each, which share what a signer and a sign do (half of the variance). A
+second table: what a clustered mean errs and finds with the signers and signs of corpora.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Callable, Mapping
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -18,10 +20,15 @@ import pandas as pd
 
 from signkin.audit.ledger import CORPUS
 from signkin.audit.registry import Evidence, OnCorpus
+from signkin.resampling import difference
 from tools.numbers import table
 
 SIGNERS, SIGNS = 8, 5
 CLUSTERED: dict[str, Any] = {"table": "t", "unit": ["recording"], "clusters": ["signer", "sign"]}
+# Signers, signs and repetitions; shifts in SDs of a recording; shares of the variance.
+DESIGNS = {"isl-sim": (2, 2, 20), "as above": (8, 5, 1), "isl-kinect": (10, 5, 9)}
+SHIFTS = (0.0, 0.5, 1.0, 2.0)
+SHARES = {"half of signer and sign": (0.25, 0.25), "none": (0.0, 0.0), "most of sign": (0.05, 0.75)}
 Make = Callable[[np.random.Generator], pd.DataFrame]
 
 
@@ -37,8 +44,9 @@ def recordings(rng: np.random.Generator) -> pd.DataFrame:
 def pairs(rng: np.random.Generator) -> pd.DataFrame:
     """Return 60 pairs without a correlation, and a number that differs between no kinds."""
     return pd.DataFrame(
-        {"x": rng.normal(size=60), "y": rng.normal(size=60), "kind": np.arange(60) % 3}
-    )
+        {"x": rng.normal(size=60), "y": rng.normal(size=60), "kind": np.arange(60) % 3,
+         "row": np.arange(60)}
+    )  # fmt: skip
 
 
 def kinds(rng: np.random.Generator) -> pd.DataFrame:
@@ -59,6 +67,11 @@ def near(rng: np.random.Generator) -> pd.DataFrame:
     )  # fmt: skip
 
 
+def rows_by_chance(rng: np.random.Generator) -> pd.DataFrame:
+    """Return eight independent rows of such shares."""
+    return pd.concat([near(rng).head(1).assign(order=order) for order in range(8)])
+
+
 RULES: dict[str, tuple[str, Make, Mapping[str, Any]]] = {
     "a mean at its bound, clustered": (
         "mean_of", recordings, {**CLUSTERED, "value": "p", "above": "0"}),
@@ -74,8 +87,17 @@ RULES: dict[str, tuple[str, Make, Mapping[str, Any]]] = {
                          "below": [["a"], ["b"]]}),
     "three groups with one mean, `differ: true`": (
         "groups_differ", pairs, {"table": "t", "value": "x", "by": "kind", "differ": True}),
+    "a mean at its bound, rows independent": (
+        "mean_of", pairs, {"table": "t", "value": "x", "unit": ["row"], "above": "0"}),
+    "a mean that is the printed one": (
+        "measure", pairs, {"table": "t", "value": "x", "take": "mean", "contains": "0.00"}),
+    "three groups with one mean, `differ: false`": (
+        "groups_differ", pairs, {"table": "t", "value": "x", "by": "kind", "differ": False}),
     "a share that chance gives, three nulls": (
         "against_nulls", near, {"table": "t", "by": ["hand"]}),
+    "a share that chance gives, eight rows": (
+        "beyond_chance", rows_by_chance, {"table": "t", "by": ["order"], "value": "value",
+                                          "low": "chance_low", "high": "chance_high"}),
 }  # fmt: skip
 
 
@@ -119,5 +141,33 @@ def levels(cases: int) -> str:
     return table(("nothing is so", "check", "holds", "fails", "undecided", "depends"), rows)
 
 
+def clustered(cases: int) -> str:
+    """Return how often a clustered mean errs, and how often it finds a shift, by design."""
+    rows = []
+    for (design, sizes), (shares, (of_signer, of_sign)) in product(DESIGNS.items(), SHARES.items()):
+        said: Counter[float] = Counter()
+        for case in range(cases):
+            rng = np.random.default_rng([case, *sizes])
+            who, what, _ = (axis.ravel() for axis in np.indices(sizes))
+            x = (
+                np.sqrt(of_signer) * rng.normal(size=sizes[0])[who]
+                + np.sqrt(of_sign) * rng.normal(size=sizes[1])[what]
+                + np.sqrt(1 - of_signer - of_sign) * rng.normal(size=len(who))
+            )
+            kinds = {"signer": who.tolist(), "sign": what.tolist()}
+            found = difference(x, np.zeros(len(x)), kinds, 400, rng)
+            said.update(shift for shift in SHIFTS if found.low + shift > 0)
+            said[-1.0] += found.high < 0
+        rates = (f"{100 * said[shift] / cases:.1f} %" for shift in (-1.0, *SHIFTS))
+        rows.append((f"{design}: {' x '.join(map(str, sizes))}", shares, *rates))
+        print(rows[-1], flush=True)
+    found_at = (f"finds {shift:g} SD" for shift in SHIFTS[1:])
+    return table(
+        ("signers x signs x repetitions", "variance shared", "fails", "holds", *found_at), rows
+    )
+
+
 if __name__ == "__main__":
-    print(levels(int(sys.argv[1]) if len(sys.argv) > 1 else 400))
+    number = int(sys.argv[1]) if len(sys.argv) > 1 else 400
+    print(levels(number))
+    print(clustered(number))

@@ -2,7 +2,7 @@
 
 python -m tools.verdicts OLD/audit/claims.csv NEW/audit/claims.csv
 
-Both are ledgers of runs on the same corpora.
+Both are ledgers of runs on the same corpora. Papers that only one of them has are left out.
 """
 
 from __future__ import annotations
@@ -95,6 +95,8 @@ def printed(new: pd.DataFrame) -> str:
 
 def page(old: pd.DataFrame, new: pd.DataFrame) -> str:
     """Return the whole page."""
+    papers = set(old.index.get_level_values("paper"))
+    new = new[new.index.get_level_values("paper").isin(papers)]
     parts: Iterable[str] = (
         HEAD,
         *(

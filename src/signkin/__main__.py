@@ -3,7 +3,8 @@
 `signkin run` runs the workflow of the folder it is called in, `signkin utterance` makes an
 utterance from a list of glosses, `signkin audit` checks a ledger of claims, `signkin corpus` looks
 at corpora before a run, `signkin score` compares two segmentations, `signkin compare` two trees of
-results, `signkin verify` tells what in results/ is not what the run wrote.
+results, `signkin verify` tells what in results/ is not what the run wrote, `signkin simulate`
+writes a corpus of any size.
 """
 
 from __future__ import annotations
@@ -14,12 +15,15 @@ import sys
 import time
 from importlib.util import find_spec
 from pathlib import Path
+from pkgutil import iter_modules
 from shlex import quote
 
+from signkin.growth import commands as growth
 from signkin.results import commands as results
 from signkin.segments import commands as segments
 from signkin.survey.commands import add_parser, run_corpus
 
+PROGRESS = "snakemake_logger_plugin_signkin"  # what Snakemake finds, by its name
 RUN_EXAMPLES = """examples:
   signkin run                          all corpora whose recordings are there
   signkin run -n                       what would be done
@@ -59,6 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
     add_parser(commands)
     segments.add_parser(commands)
     results.add_parsers(commands)
+    growth.add_parser(commands)
     told, for_snakemake = parser.parse_known_args(arguments)
     if told.command == "run":
         return run_workflow(for_snakemake)
@@ -66,7 +71,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"unknown arguments: {' '.join(for_snakemake)}")
     others = {
         "score": segments.run_score, "compare": results.run_compare,
-        "verify": results.run_verify,
+        "verify": results.run_verify, "simulate": growth.run_simulate,
     }  # fmt: skip
     if told.command in others:
         return others[told.command](told)
@@ -87,7 +92,7 @@ def say(told: argparse.Namespace) -> int:
         only = ["--config", f'corpora=["{told.corpus}"]']
         if told.config.is_file() and told.config != Path("config.yaml"):
             only = ["--configfile", str(told.config), *only]
-        status = run_workflow(["--quiet", "all", *only, "--", *targets])
+        status = run_workflow([*only, "--", *targets], brief=True)
         if status:
             return status
         glosses = glosses_of(told.glosses)
@@ -100,7 +105,10 @@ def say(told: argparse.Namespace) -> int:
 
 
 def refuse_unquotable(interpreter: str) -> None:
-    """Refuse a Python whose path a shell takes apart: Snakemake calls it without quotes."""
+    """Refuse a Python whose path a shell takes apart.
+
+    Where jobs are not forked (forked.py), Snakemake calls it without quotes.
+    """
     from signkin.errors import SignkinError
 
     if quote(interpreter) != interpreter:
@@ -112,9 +120,17 @@ def refuse_unquotable(interpreter: str) -> None:
         )
 
 
-def run_workflow(extra: list[str], folder: Path | None = None) -> int:
+def _told_by(brief: bool) -> list[str]:
+    """Return Snakemake's options for the line of progress, where it finds the package of it."""
+    if all(found.name != PROGRESS for found in iter_modules()):
+        return []
+    return ["--logger", "signkin", *(["--logger-signkin-brief"] if brief else [])]
+
+
+def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = False) -> int:
     """Run Snakemake in a folder (its config.yaml, its results), one run at a time.
 
+    brief: whether nothing is said where there is nothing to do.
     Snakemake's own lock outlives a run that was killed and then stops the next one. The lock
     taken here is the kernel's: it goes with this process and Snakemake's, so a killed run can
     simply go on, and none starts beside a Snakemake that is still at work.
@@ -124,9 +140,11 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
     from signkin.child import run_child
     from signkin.cost import failure
     from signkin.errors import SignkinError
+    from signkin.forked import FORKS
     from signkin.lock import held
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
+    from signkin.slurm import slurm_arguments
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -134,7 +152,9 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
         home = workflow_home()
         if (folder / "config.yaml").is_file():
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
-        refuse_unquotable(sys.executable)
+        if not FORKS or any(word.startswith("--executor") or "slurm" in word for word in extra):
+            refuse_unquotable(sys.executable)
+        extra = [*slurm_arguments(extra, folder), *extra]
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",
@@ -154,7 +174,8 @@ def run_workflow(extra: list[str], folder: Path | None = None) -> int:
             print(f"signkin: {path} is not what its job wrote; it is deleted, and made anew where "
                   "it is wanted.", file=sys.stderr)  # fmt: skip
         forget_stale_kernels()  # no job may run machine code of other sources
-        command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
+        command = [sys.executable, "-m", "signkin.forked", "--snakefile", str(home / "Snakefile")]
+        command += _told_by(brief)
         command += ["--profile", str(home / "profiles" / "default"), "--nolock", *extra]
         # One thread a job: sums in another order would change last digits.
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}

@@ -29,7 +29,10 @@ def excerpt(
     """
     if from_s == 0.0 and to_s is None and clock_offset_s == 0.0:
         return annotation
-    if not (math.isfinite(from_s) and math.isfinite(clock_offset_s)):
+    given = (from_s, clock_offset_s, 0.0 if to_s is None else to_s)
+    if any(isinstance(v, bool) or not isinstance(v, int | float) for v in given) or not (
+        math.isfinite(from_s) and math.isfinite(clock_offset_s)
+    ):
         raise SignkinError(
             f"from_s is {from_s}, clock_offset_s {clock_offset_s}",
             place="excerpt",

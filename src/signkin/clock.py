@@ -13,6 +13,7 @@ import scipy  # loads its parts when they are used
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 # A clock that is off by more than this share of a frame is not a constant rate.
 CLOCK_TOLERANCE = 0.05
@@ -117,7 +118,7 @@ def resample(
     known, and a gap stays, within a gap of the column and between samples more than three usual
     (median) steps apart. Raises SignkinError for times that do not rise.
     """
-    times_s = np.asarray(times_s, dtype=float)
+    times_s, values = unmasked(times_s), unmasked(values)
     steps = np.diff(times_s)
     if len(times_s) < 2 or not np.isfinite(times_s).all() or not (steps > 0).all():
         row = int(np.argmin(np.where(np.isfinite(steps), steps, -np.inf))) + 1 if len(steps) else 0

@@ -7,10 +7,7 @@ the vocabulary, sign types that contradict themselves.
 
 from __future__ import annotations
 
-import csv
-import hashlib
 import os
-import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -23,12 +20,11 @@ import yaml
 
 from signkin import joints as joint_names
 from signkin.annotation import TierWish, tier_key
-from signkin.checksum import sha256_of
 from signkin.errors import SignkinError, listed
+from signkin.owner_rows import read_owner_table
 from signkin.settings.checks import checked
 from signkin.settings.corpus import CorpusDescription
-from signkin.shared_files import check_shared_tables, check_shared_tags
-from signkin.text_file import text_of
+from signkin.shared_files import check_doubled, check_shared_tables, check_shared_tags
 from signkin.yaml_file import read_yaml
 
 SCHEMAS = files("signkin") / "schemas"
@@ -93,6 +89,11 @@ class Corpus:
     def simulator(self) -> str | None:
         """Name of the simulator that makes the corpus, None for real recordings."""
         return self.settings.get("simulator")
+
+    @property
+    def made_by_run(self) -> bool:
+        """Whether a rule of the run writes the recordings; no files are there before."""
+        return self.simulator in ("lsf-sim", "isl-sim")
 
     @property
     def tagged(self) -> bool:
@@ -185,7 +186,29 @@ class Corpus:
     def files(self) -> list[str]:
         """Return the data files of all recordings, each once, in order."""
         names = [n for e in self.entries for n in (e.motion, e.annotation) if n]
-        return list(dict.fromkeys(names))
+        return list(dict.fromkeys([*names, *self.annotator_files()]))
+
+    @property
+    def annotators(self) -> dict[str, dict[str, Any]]:
+        """Where the signs of further annotators are, by annotator."""
+        return dict(self.settings.get("annotation", {}).get("annotators", {}))
+
+    def annotator_file(self, entry: Entry, annotator: str) -> str:
+        """Return the file with an annotator's tags of a recording."""
+        wish = self.annotators[annotator].get("file")
+        return entry.annotation if wish is None else str(_filled(wish, entry))
+
+    def annotator_files(self) -> list[str]:
+        """Return the files of further annotators, each once."""
+        return list(dict.fromkeys(
+            self.annotator_file(e, name) for name in self.annotators for e in self.entries
+        ))  # fmt: skip
+
+    def annotator_spec(self, entry: Entry, annotator: str) -> dict[str, Any]:
+        """Return the arguments of `read_annotation` for an annotator's tags of a recording."""
+        tier = self.annotators[annotator].get("tier", self.settings["annotation"].get("sign_tier"))
+        wishes = () if tier is None else (_filled(tier, entry),)
+        return {**self.annotation_spec(entry), "tiers": wishes}
 
 
 def _is_by_hand(wanted: Any) -> bool:
@@ -222,6 +245,7 @@ def load_corpus(folder: Path) -> Corpus:
     signs_file = folder / "signs.csv"
     signs = tuple(_read_signs(signs_file)) if signs_file.exists() else ()
     corpus = Corpus(folder.name, folder, settings, entries, signs)
+    check_doubled(corpus, folder / "recordings.csv")
     check_shared_tables(corpus, folder / "recordings.csv")
     check_shared_tags(corpus, folder / "recordings.csv")
     return corpus
@@ -281,20 +305,11 @@ def _check_joints(motion: Mapping[str, Any], file: Path) -> None:
 def _rows(path: Path, schema: str, key: str) -> Iterator[tuple[int, dict[str, str]]]:
     """Yield (line, row) of a checked CSV file; a doubled key is an error."""
     try:
-        text = text_of(path)
+        table = read_owner_table(path, as_written=("gloss", "sign"))
     except FileNotFoundError:
         raise SignkinError("there is no such file", file=path, todo=GUIDE) from None
     seen: dict[str, int] = {}
-    reader = csv.DictReader(text.splitlines(), strict=True)
-    for row in reader:
-        line = reader.line_num
-        if None in row or None in row.values():
-            raise SignkinError(
-                "the row has more or fewer cells than the header",
-                file=path,
-                place=f"line {line}",
-                expected=listed(reader.fieldnames or ()),
-            )
+    for line, row in table.rows:
         check_schema(row, schema, path, f"line {line}")
         if row[key] in seen:
             raise SignkinError(
@@ -321,6 +336,15 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
                 expected="one for each recording, since corpus.yaml has an annotation section",
             )
         sign = row.get("sign", "")
+        from_s = float(row.get("from_s") or 0)
+        to_s = float(row["to_s"]) if row.get("to_s") else None
+        if to_s is not None and to_s <= from_s:
+            raise SignkinError(
+                f"from_s {from_s:g}, to_s {to_s:g}",
+                file=path,
+                place=f"line {line}",
+                expected="an end after the start",
+            )
         repetition = int(row["repetition"]) if row.get("repetition") else None
         if repetition is not None:
             _check_repetition((row["signer"], sign, repetition), line, repetitions, path)
@@ -333,8 +357,8 @@ def _read_entries(path: Path, tagged: bool) -> Iterator[Entry]:
             line=line,
             sign=sign,
             repetition=repetition,
-            from_s=float(row.get("from_s") or 0),
-            to_s=float(row["to_s"]) if row.get("to_s") else None,
+            from_s=from_s,
+            to_s=to_s,
             clock_offset_s=float(row.get("clock_offset_s") or 0),
             rating=row.get("rating", ""),
             rating_note=row.get("rating_note", ""),
@@ -366,7 +390,20 @@ def _check_repetition(
 
 
 def _read_signs(path: Path) -> Iterator[SignType]:
+    """Yield the types; a gloss without one is a question, and typed from motion until it is told.
+
+    Annotations are read with composed accents, too.
+    """
     for line, row in _rows(path, "signs", "gloss"):
+        if not row["hands"] and not row["symmetric"]:
+            continue
+        if not row["hands"] or not row["symmetric"]:
+            raise SignkinError(
+                f"{row['gloss']} has half a type",
+                file=path,
+                place=f"line {line}",
+                expected="hands and symmetric, or neither",
+            )
         hands, symmetric = int(row["hands"]), int(row["symmetric"])
         if symmetric and hands != 1:
             raise SignkinError(
@@ -375,8 +412,7 @@ def _read_signs(path: Path) -> Iterator[SignType]:
                 place=f"line {line}",
                 expected="symmetric = 1 for two-handed signs (hands = 1) only",
             )
-        # Annotations are read with composed accents, too.
-        yield SignType(unicodedata.normalize("NFC", row["gloss"]), hands, symmetric)
+        yield SignType(row["gloss"], hands, symmetric)
 
 
 # --- where the data lie ----------------------------------------------------------------------
@@ -385,10 +421,10 @@ def _read_signs(path: Path) -> Iterator[SignType]:
 def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> Path | None:
     """Return the folder that holds a corpus's recordings, or None where they are not there.
 
-    Simulated corpora lie in the results; real ones in `data_dir/<data_folder>`, or in
+    Corpora that the run makes lie in the results; others in `data_dir/<data_folder>`, or in
     the corpus's own folder `data`.
     """
-    if corpus.simulator is not None:
+    if corpus.made_by_run:
         return results / corpus.name / "simulated"
     name = corpus.settings.get("data_folder", corpus.name)
     candidates = [corpus.folder / "data"]
@@ -438,33 +474,6 @@ def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
             expected="the recording's file in the data folder",
         )
     return path
-
-
-def check_checksum(corpus: Corpus, folder: Path, name: str) -> None:
-    """Refuse a file that is not the one the corpus was described with."""
-    expected = corpus.settings.get("checksums", {}).get(name)
-    if expected is None:
-        return
-    found = _digest(folder / name)
-    if found != expected:
-        raise SignkinError(
-            f"the SHA-256 of {name} is {found}",
-            file=corpus.folder / "corpus.yaml",
-            place="key checksums",
-            expected=expected,
-            todo="Get the file again, or correct the checksum if the change is meant.",
-        )
-
-
-def _digest(path: Path) -> str:
-    """Return the SHA-256 of a file, or of the names and contents of a folder's files in order."""
-    if not path.is_dir():
-        return sha256_of(path)
-    whole = hashlib.sha256()
-    for file in sorted(path.iterdir()):
-        if file.is_file():
-            whole.update(f"{file.name}\0{sha256_of(file)}\n".encode())
-    return whole.hexdigest()
 
 
 def data_dir_of(data_dir: str | None) -> str | None:

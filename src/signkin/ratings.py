@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
+from signkin.owner_rows import read_owner_table
 from signkin.text_file import text_of
 
 RATINGS = ("ok", "check", "exclude")
@@ -107,8 +108,8 @@ def put(ratings: Iterable[Rating], folder: Path) -> Mapping[str, int]:
     """
     given = list(ratings)
     path = folder / "recordings.csv"
-    rows = list(csv.reader(io.StringIO(text_of(path)), strict=True))
-    head, body = rows[0], [row for row in rows[1:] if row]
+    table = read_owner_table(path, as_written=("sign",))
+    head, body = list(table.columns), [list(row.values()) for _, row in table.rows]
     for column in ("rating", "rating_note"):
         if column not in head:
             head.append(column)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.masked import unmasked
 
 UNITS = ("m", "px")
 ORIENTATION_SOURCES = ("recorded", "limb_frames", "none")
@@ -46,6 +47,9 @@ class Recording:
 
     def __post_init__(self) -> None:
         """Check every field; errors name the recording and the joint or frame."""
+        for name in ("positions", "orientations"):
+            if np.ma.isMaskedArray(getattr(self, name)):
+                object.__setattr__(self, name, unmasked(getattr(self, name)))
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
             raise self._error("rate", f"the rate is {self.rate_hz:g} Hz", "a rate above 0 Hz")
         if self.unit not in UNITS:

@@ -1,11 +1,13 @@
 """Differences and peaks with their uncertainty: paired bootstrap, clustered by signer and sign.
 
 Recordings of one signer, and of one sign, are alike: taken one by one they promise more than they
-know. Here signers and signs are drawn independently, each with replacement, and a recording counts
-as often as its signer was drawn times its sign was (the pigeonhole bootstrap, Owen 2007, Ann.
-Appl. Stat. 1(2), which is on the safe side). Few clusters vary too little among themselves: draws
-are spread about the estimate by sqrt(G / (G - 1)) t / z, G the smaller number of clusters (with
-two signers hardly anything is decided, as it should be).
+know. Here every signer and every sign is weighted at random, the two independently (the multiplier,
+or wild, bootstrap with normal weights). Draws have the variance of clusters in two ways (Cameron,
+Gelbach & Miller 2011, J. Bus. Econ. Stat. 29(2): that of signers and that of signs, less that of
+their cells, which both have in them), though never less than that of signers or of signs alone;
+and they are spread as t with G - 1 degrees of freedom, G the smaller number of clusters: with two
+signers hardly anything is decided, as it should be. `python -m tools.verdict_levels` tells how
+often such an interval errs, and what it finds (docs/reliability.md).
 """
 
 from __future__ import annotations
@@ -91,7 +93,7 @@ def difference(
     values = np.asarray(a, dtype=float) - np.asarray(b, dtype=float)
     kept, labels, left_out = _complete(values[:, None], clusters)
     found = _spread(kept, labels, draws, rng, level)[:, 0]
-    low, high = np.nanquantile(found, [(1 - level) / 2, (1 + level) / 2])
+    low, high = np.quantile(found, [(1 - level) / 2, (1 + level) / 2])
     return Difference(
         float(kept.mean()), float(low), float(high), _share_above(found), len(kept), left_out,
         {name: int(codes.max()) + 1 for name, codes in labels.items()},
@@ -119,9 +121,12 @@ def peak(
             expected="(N, K), two alternatives or more",
         )
     kept, codes, left_out = _complete(table, clusters)
-    found = _spread(kept, codes, draws, rng, level)
-    found = found[~np.isnan(found).any(axis=1)]
-    low, high = np.quantile(found, [(1 - level) / 2, (1 + level) / 2], axis=0)
+    # Where the peak is hangs on differences alone: what all columns share is left out.
+    shared = kept.mean(axis=1, keepdims=True)
+    low, high = np.quantile(
+        _spread(kept, codes, draws, rng, level), [(1 - level) / 2, (1 + level) / 2], axis=0
+    )
+    found = _spread(kept - shared, codes, draws, rng, level, one_scale=True)
     highest = found >= found.max(axis=1, keepdims=True) - 1e-12
     probability = (highest / highest.sum(axis=1, keepdims=True)).mean(axis=0)
     return Peak(
@@ -163,40 +168,54 @@ def _spread(
     draws: int,
     rng: np.random.Generator,
     level: float,
+    one_scale: bool = False,
 ) -> Array:
-    """Return means of draws, (draws, K), spread about the estimate as few clusters want it."""
-    first, *others = codes.values()
-    second = others[0] if others else np.zeros(len(first), dtype=np.intp)
-    shape = (int(first.max()) + 1, int(second.max()) + 1)
-    cell = first * shape[1] + second
-    size = shape[0] * shape[1]
-    counts = np.bincount(cell, minlength=size).reshape(shape).astype(float)
+    """Return means of draws, (draws, K), spread about the estimate as few clusters want it.
+
+    one_scale: all columns are spread by one factor, so that differences between them keep theirs.
+    """
     # About the mean: a draw's mean is then free of rounding that grows with the offset.
     centre = values.mean(axis=0)
+    deviations = values - centre
+    parts = [_sums(deviations, code) for code in codes.values()]
+    about = np.zeros((draws, values.shape[1]))
+    for part in parts:
+        half = rng.standard_normal((draws - draws // 2, len(part)))
+        weights = np.concatenate([half, -half[: draws // 2]])  # as many up as down
+        about += weights @ part
+    drawn: Array = np.sum([np.sum(part**2, axis=0) for part in parts], axis=0)
+    wanted: Array = _variance(deviations, list(codes.values()), parts)
+    if one_scale:
+        drawn, wanted = np.array([np.sum(drawn)]), np.array([np.sum(wanted)])
+    scale = np.sqrt(np.divide(wanted, drawn, out=np.zeros_like(wanted), where=drawn > 0))
+    half_way, least = (1 + level) / 2, min(map(len, parts))
+    factor = scipy.stats.t.ppf(half_way, least - 1) / scipy.stats.norm.ppf(half_way)
+    return np.asarray(centre + factor * scale * about)
+
+
+def _sums(deviations: Array, code: NDArray[np.intp]) -> Array:
+    """Return what each cluster moves the mean by, (G, K); squares add up to its variance."""
+    groups = int(code.max()) + 1
     sums = np.stack(
-        [np.bincount(cell, column, minlength=size).reshape(shape) for column in (values - centre).T]
+        [np.bincount(code, column, minlength=groups) for column in deviations.T], axis=1
     )
-    weights = [
-        rng.multinomial(g, np.full(g, 1 / g), draws).astype(float) if g > 1 else np.ones((draws, 1))
-        for g in shape
-    ]
-    total = np.einsum("dg,gh,dh->d", weights[0], counts, weights[1], optimize=True)
-    means = np.einsum("dg,kgh,dh->dk", weights[0], sums, weights[1], optimize=True)
-    with np.errstate(invalid="ignore"):  # a draw whose signers have none of its signs: NaN
-        means = np.where(total[:, None] > 0, means / np.maximum(total, 1e-300)[:, None], np.nan)
-    least = min(int(c.max()) + 1 for c in codes.values())
-    half = (1 + level) / 2
-    factor = (
-        np.sqrt(least / (least - 1))
-        * scipy.stats.t.ppf(half, least - 1)
-        / scipy.stats.norm.ppf(half)
-    )
-    return np.asarray(centre + factor * means)
+    return np.asarray(sums / len(code) * np.sqrt(groups / (groups - 1)))
+
+
+def _variance(
+    deviations: Array, codes: Sequence[NDArray[np.intp]], parts: Sequence[Array]
+) -> Array:
+    """Return the variance of the mean, (K,): of clusters of one kind, or of two."""
+    own = [np.sum(part**2, axis=0) for part in parts]
+    if len(own) == 1:
+        return own[0]
+    cells = np.unique(codes[0] * (int(codes[1].max()) + 1) + codes[1], return_inverse=True)[1]
+    both = np.sum(_sums(deviations, cells.astype(np.intp)) ** 2, axis=0)
+    return np.max([*own, sum(own) - both], axis=0)
 
 
 def _share_above(found: Array) -> float:
-    there = found[~np.isnan(found)]
-    return float(((there > 0) + 0.5 * (there == 0)).mean())
+    return float(((found > 0) + 0.5 * (found == 0)).mean())
 
 
 def ratio_rows(over: Sequence[ArrayLike], under: Sequence[ArrayLike]) -> Array:

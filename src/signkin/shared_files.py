@@ -11,6 +11,22 @@ if TYPE_CHECKING:
     from signkin.corpus import Corpus, Entry
 
 
+def check_doubled(corpus: Corpus, file: Path) -> None:
+    """Refuse two recordings that are one: the same file, part, stretch and tags."""
+    seen: dict[object, Entry] = {}
+    for entry in corpus.entries:
+        tiers = str(corpus.tiers_of(entry))
+        key = (entry.motion, entry.annotation, entry.part, entry.from_s, entry.to_s, tiers)
+        first = seen.setdefault(key, entry)
+        if first is not entry and entry.motion:
+            raise SignkinError(
+                f"{entry.recording} is {first.recording} (line {first.line}) once more",
+                file=file,
+                place=f"line {entry.line}",
+                expected="each recording once; part, from_s or the names of tiers tell two apart",
+            )
+
+
 def check_shared_tables(corpus: Corpus, file: Path) -> None:
     """Refuse two recordings of one table of motion that nothing tells apart.
 

@@ -22,7 +22,7 @@ def folder(tmp_path_factory):
         ("untagged", [holed, riddled], ()),
         ("flat", [signer("flat", 3.0, unit="px", flat=True)], ()),
     ):
-        sources = made_up(folder / "made" / name, takes, signs)
+        sources = made_up(folder / "made" / name, takes, signs, binned=name == "tagged")
         write_pages(sources, folder / name, folder / f"{name}.html")
     return folder
 
@@ -220,6 +220,30 @@ def test_what_is_missing_is_told_and_the_page_still_plays(opened):
     page = opened("untagged/holed")
     press(page, "f")
     assert "no position for" in page.inner_text("#said")
+
+
+def test_orders_are_chosen_and_the_density_of_each_is_drawn_and_read(opened):
+    page = opened("tagged/one")
+    named = "Posterior of boundaries over time, by order: {} wrist"
+    panels = [page.locator(f'.panel[data-panel="{named.format(h)}"]') for h in ("right", "left")]
+    assert [panel.count() for panel in panels] == [1, 1]
+    chips = page.locator("#orders .chip")
+    pressed = "[...document.querySelectorAll('#orders .chip')].map(c => c.ariaPressed)"
+    assert chips.count() == 8
+    assert page.evaluate(pressed) == ["false"] * 3 + ["true"] + ["false"] * 4  # that of the tables
+    picture = "p => p.querySelector('canvas').toDataURL()"
+    before = panels[0].evaluate(picture)
+    chips.nth(0).click()
+    settled(page)
+    assert panels[0].evaluate(picture) != before
+    plot = panels[1].locator(".u-over").bounding_box()
+    page.mouse.move(plot["x"] + plot["width"] / 2, plot["y"] + 20)
+    settled(page)
+    told = page.inner_text("#readout")
+    for hand in ("right", "left"):
+        assert f"P(boundary), {hand}, order 0: " in told
+        assert f"P(boundary), {hand}, order 3: " in told
+    assert "order 7" not in told
 
 
 def test_html_in_a_gloss_is_text(opened):

@@ -151,6 +151,16 @@ def test_deeplabcut_as_pandas_reads_it(formats):
     same(recording.positions[..., :2], table.to_numpy().reshape(len(table), -1, 2), 1e-12)
 
 
+def test_deeplabcut_in_hdf5_is_the_table_of_the_same_name(formats):
+    # pandas with PyTables reads the .h5 as the .csv; that was compared when the reader was made.
+    pytest.importorskip("h5py", reason="the optional library h5py is not there")
+    path = formats / "tables" / "deeplabcut.h5"
+    table = pd.read_csv(path.with_suffix(".csv"), header=[0, 1, 2], index_col=0)
+    recording = read_recording(path, rate_hz=30)
+    assert list(recording.joints) == list(dict.fromkeys(table.columns.get_level_values(1)))
+    same(recording.positions[..., :2], table.to_numpy().reshape(len(table), -1, 2), 0)
+
+
 def test_key_points_of_numpy(formats):
     path = formats / "tables" / "mediapipe_holistic.npy"
     joints = {

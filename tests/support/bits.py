@@ -5,6 +5,7 @@ import hashlib
 import numpy as np
 
 from signkin.binning import Prior, fit
+from signkin.binning.compiled import forget_stale_kernels
 
 
 def digest() -> str:
@@ -28,4 +29,5 @@ def digest() -> str:
 
 
 if __name__ == "__main__":
+    forget_stale_kernels()
     print(digest())

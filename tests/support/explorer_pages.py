@@ -16,6 +16,8 @@ from signkin.io.store import write_recordings
 from signkin.recording import Recording
 from signkin.settings import Settings
 from signkin.stages.kinematics import kinematics
+from signkin.studies.one_wrist.long_series import long_series
+from signkin.studies.one_wrist.settings import SeriesSettings
 
 JOINTS = ("chest", "neck", "head", "right_shoulder", "right_elbow", "right_wrist", "right_index_1",
           "right_index_tip", "left_shoulder", "left_elbow", "left_wrist")  # fmt: skip
@@ -109,8 +111,11 @@ def synthesis_table(recording, transitions):
     return out.reindex(columns=tables.TABLES["synthesis"].names(recording.unit))
 
 
-def made_up(folder, recordings, signs=(), most=50) -> Sources:
-    """Write what the rules before the explorer write for some takes, and read it as it does."""
+def made_up(folder, recordings, signs=(), most=50, binned=False) -> Sources:
+    """Write what the rules before the explorer write for some takes, and read it as it does.
+
+    binned: whether wrists are binned as long series, too.
+    """
     corpus = corpus_of(recordings, bool(signs))
     unit = corpus.unit
     corpus.settings["on_error"] = "skip"
@@ -134,6 +139,9 @@ def made_up(folder, recordings, signs=(), most=50) -> Sources:
     if signs:
         frames |= tag_tables(recordings[0], signs)
         frames["synthesis"] = synthesis_table(recordings[0], frames["transitions"])
+    if binned:
+        series = long_series(corpus, recordings, SeriesSettings.of(Settings()), 1)
+        frames |= {n: series.table(n, unit) for n in ("wrist_posteriors", "wrist_boundaries")}
     files = {name: str(folder / f"{name}.csv") for name in frames}
     for name, frame in frames.items():
         tables.write_table(frame, files[name], name, unit)

@@ -209,6 +209,26 @@ def write_deeplabcut(path: Path, x: np.ndarray) -> None:
     _lines(path, rows)
 
 
+def write_deeplabcut_h5(path: Path, x: np.ndarray) -> None:
+    """The same as pandas keeps it in HDF5: one record a frame, names pickled."""
+    import pickle
+
+    import pytest
+
+    h5py = pytest.importorskip("h5py", reason="the optional library h5py is not there")
+    names = [("net", n, c) for n in LANDMARKS for c in ("x", "y", "likelihood")]
+    rows = np.zeros(len(x), dtype=[("index", "i8"), ("values_block_0", "f8", (len(names),))])
+    rows["index"] = np.arange(len(x))
+    shown = np.concatenate([pixels(x), np.full((*x.shape[:2], 1), 0.95)], axis=2)
+    rows["values_block_0"] = shown.reshape(len(x), -1)
+    with h5py.File(path, "w") as file:
+        group = file.create_group("df_with_missing")
+        group.attrs["pandas_type"] = np.bytes_(b"frame_table")
+        group.attrs["non_index_axes"] = np.bytes_(pickle.dumps([(1, names)], protocol=0))
+        table = group.create_dataset("table", data=rows)
+        table.attrs["values_block_0_kind"] = np.bytes_(pickle.dumps(names, protocol=0))
+
+
 def write_npy(path: Path, x: np.ndarray) -> None:
     """(frames, points, 2), pixels."""
     np.save(path, pixels(x))
@@ -304,6 +324,10 @@ SAMPLES = {
         ),
         Sample(
             "deeplabcut_csv", "d.csv", write_deeplabcut,
+            {"joints": _LANDMARKS, **_RATE, **_IMAGE}, pixels=True,
+        ),
+        Sample(
+            "deeplabcut_h5", "d.h5", write_deeplabcut_h5,
             {"joints": _LANDMARKS, **_RATE, **_IMAGE}, pixels=True,
         ),
         Sample(

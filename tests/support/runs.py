@@ -76,14 +76,14 @@ def prepare(folder: Path, **changes: object) -> Path:
     return folder
 
 
-def run(folder: Path, *extra: str, data: Path | None = None) -> Run:
-    return signkin("run", *extra, folder=folder, data=data)
+def run(folder: Path, *extra: str, data: Path | None = None, timeout: float = 600) -> Run:
+    return signkin("run", *extra, folder=folder, data=data, timeout=timeout)
 
 
-def signkin(*words: str, folder: Path, data: Path | None = None) -> Run:
+def signkin(*words: str, folder: Path, data: Path | None = None, timeout: float = 600) -> Run:
     done = subprocess.run(
         [sys.executable, "-m", "signkin", *words], cwd=folder, env=environment(data), text=True,
-        timeout=600, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+        timeout=timeout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
     )  # fmt: skip
     return Run(folder, done.returncode, done.stdout)
 
@@ -133,3 +133,35 @@ MINI = {
         "options": {"start_column": "start", "end_column": "end", "label_column": "gloss"},
     },
 }  # fmt: skip
+
+
+def write_mini(
+    folder: Path, data: Path, name: str = "mini", **settings: object
+) -> tuple[Path, Path]:
+    """Write a mini corpus of two recordings; returns the folders of its description and its files.
+
+    folder: that of the run. data: the folder of all data. settings: of corpus.yaml.
+    """
+    corpus, files = folder / "corpora" / name, data / name
+    corpus.mkdir(parents=True)
+    files.mkdir(parents=True)
+    (corpus / "corpus.yaml").write_text(yaml.safe_dump({**MINI, **settings}))
+    (corpus / "recordings.csv").write_text(
+        "recording,signer,motion,annotation\nm1,s1,m1.csv,t1.csv\nm2,s2,m2.csv,t2.csv\n"
+    )
+    (corpus / "signs.csv").write_text("gloss,hands,symmetric\nCAKE,1,1\nIX,0,0\n")
+    for i in (1, 2):
+        (files / f"m{i}.csv").write_text(mini_motion(12, i))
+        tags = [(k + 0.05 * i, k + 0.6, ("CAKE", "IX", "NEW")[k % 3]) for k in range(1, 10)]
+        rows = "".join(f"{a:.2f},{b:.2f},{g}\n" for a, b, g in tags)
+        (files / f"t{i}.csv").write_text("start,end,gloss\n" + rows)
+    return corpus, files
+
+
+def files_of(folder: Path) -> dict[str, bytes]:
+    """Return the bytes of every file below a folder, by its place in it."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }

@@ -7,12 +7,12 @@ import yaml
 
 from signkin import SignkinError
 from signkin.corpus import (
-    check_checksum,
     check_files,
     data_folder,
     load_corpora,
     load_corpus,
 )
+from signkin.corpus_checksums import check_checksum
 from signkin.io import annotation_formats, motion_formats
 from signkin.settings.corpus import Annotation, Motion
 
@@ -66,14 +66,42 @@ def test_a_corpus_as_it_should_be(folder):
 
 def test_a_corpus_of_single_signs_has_a_sign_in_every_row(folder):
     assert not load_corpus(folder).single_signs
-    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,m,a,CAKE,2\n")
+    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,n,a,CAKE,2\n")
     corpus = load_corpus(folder)
     assert corpus.single_signs
     assert [(e.sign, e.repetition) for e in corpus.entries] == [("CAKE", 1), ("CAKE", 2)]
     assert corpus.by_name["r2"].line == 3
     assert corpus.noise_sd == 0.001
-    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,m,a,,\n")
+    write(folder, recordings=SINGLE + "r1,s1,m,a,CAKE,1\nr2,s1,n,a,,\n")
     assert not load_corpus(folder).single_signs
+
+
+@pytest.mark.parametrize(
+    "recordings",
+    [
+        "recording;signer;motion;annotation;from_s\nr1;s;m;a;1,5\n",
+        "recording\tsigner\tmotion\tannotation\tfrom_s\nr1\ts\tm\ta\t1.5\n",
+        "sep=;\nrecording;signer;motion;annotation;from_s\n;;;;\nr1;s;m;a;1,5\n",
+        "\ufeffRecording, Signer, Motion, Annotation, From s\r\nr1, s, m, a, 1.5\r\n",
+        "recording,signer,motion,annotation,from_s,\nr1,s,m,a,1.5,\n\n,,,,,\n",
+    ],
+)
+def test_tables_as_spreadsheets_save_them(folder, recordings):
+    write(folder, recordings=recordings)
+    (entry,) = load_corpus(folder).entries
+    assert (entry.recording, entry.signer, entry.motion, entry.from_s) == ("r1", "s", "m", 1.5)
+
+
+def test_a_gloss_without_a_type_is_a_question(folder):
+    (folder / "signs.csv").write_text("gloss,hands,symmetric\nA,,\nB,1,1\n", encoding="utf-8")
+    assert load_corpus(folder).lexicon == {"B": "11"}
+    (folder / "signs.csv").write_text("gloss,hands,symmetric\nA,1,\n", encoding="utf-8")
+    with pytest.raises(SignkinError, match="line 2: A has half a type"):
+        load_corpus(folder)
+    twice = "gloss,hands,symmetric\n\u00c4,0,0\nA\u0308,1,0\n"
+    (folder / "signs.csv").write_text(twice, encoding="utf-8")
+    with pytest.raises(SignkinError, match="line 3: gloss '\u00c4' stands in line 2"):
+        load_corpus(folder)
 
 
 def test_the_shipped_corpora_are_right(root):
@@ -82,6 +110,9 @@ def test_the_shipped_corpora_are_right(root):
     assert single == {"auslan-hq", "isl-kinect", "isl-sim"}
     assert set(corpora) >= {"lsf-sim", "dgs-1984189", "boston104", "libras"}
     assert len(corpora["boston104"].entries) == 201
+    for corpus in corpora.values():
+        assert corpus.settings["citation"] and corpus.settings["licence"]
+        assert corpus.simulator or set(corpus.settings["checksums"]) == set(corpus.files())
     assert corpora["lsf-sim"].simulator == "lsf-sim"
 
 
@@ -141,6 +172,11 @@ SINGLE = "recording,signer,motion,annotation,sign,repetition\n"
         (HEAD + "r1,,m,a\n", r"line 2, key signer"),
         (HEAD + "r1,s,m\n", r"line 2: the row has more or fewer cells"),
         (HEAD + "r1,s,m,\n", r"line 2: no annotation file"),
+        ("recording,signer,signer,motion,annotation\nr1,s,t,m,a\n", "line 1: .*'signer' stands tw"),
+        (HEAD + 'r1,"s,m,a\n', "line 2: not readable as CSV"),
+        (HEAD + 'r1,"s\nt",m,a\n', "line 2, column signer: a line break"),
+        (HEAD + "r1,s,m,a\nr2,s,m,a\n", r"line 3: r2 is r1 \(line 2\) once more"),
+        (HEAD.strip() + ",from_s,to_s\nr1,s,m,a,5,2\n", "line 2: from_s 5, to_s 2"),
         (HEAD, r"no recording; expected one row a recording"),
         (
             "recording,signer,motion,annotation,colour\nr1,s,m,a,red\n",
@@ -149,7 +185,7 @@ SINGLE = "recording,signer,motion,annotation,sign,repetition\n"
         (SINGLE + "r1,s,m,a,CAKE,0\n", r"line 2, key repetition: '0' does not .*from 1"),
         (SINGLE + "r1,s,m,a,,1\n", r"line 2: repetition 1 without a sign"),
         (
-            SINGLE + "r1,s,m,a,CAKE,1\nr2,t,m,a,CAKE,1\nr3,s,m,a,CAKE,1\n",
+            SINGLE + "r1,s,m,a,CAKE,1\nr2,t,n,a,CAKE,1\nr3,s,o,a,CAKE,1\n",
             r"line 4: repetition 1 of 'CAKE' by s stands in line 2 already",
         ),
     ],

@@ -9,12 +9,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from signkin.binning import fit
 from signkin.explorer.choice import chosen
 from signkin.explorer.content import as_json
 from signkin.explorer.events import Labels, flags, minima
 from signkin.explorer.packing import packed, unpacked, weight
 from signkin.explorer.pages import write_pages
 from signkin.explorer.skeleton import flat, skeleton
+from signkin.settings import Settings
+from signkin.studies.endres2013.posteriors import prior_of
+from signkin.studies.one_wrist.long_series import wrist_in_bins
+from signkin.studies.one_wrist.settings import SeriesSettings
 from support.explorer_pages import HOSTILE, made_up, signer
 
 SIGNS = [(0.5, 1.0, "CAT"), (1.4, 2.0, HOSTILE), (2.5, 3.0, "DOG"), (2.9, 3.6, "L" * 200)]
@@ -169,6 +174,37 @@ def test_a_page_holds_tags_refined_tags_transitions_and_syntheses(tmp_path):
     assert path[0, wrist : wrist + 3] == pytest.approx(before, abs=0.002)
     assert len(path) == sum(n for _, n, _ in made["interpolation"]["frames"])
     assert frames > 3
+
+
+def test_densities_of_both_wrists_are_the_posterior_of_each_order(tmp_path):
+    _, data = pages_of(tmp_path, [signer()], binned=True)
+    found = {(one["hand"], one["order"]): one for one in data["densities"]}
+    assert set(found) == {(hand, order) for hand in ("right", "left") for order in range(8)}
+    series = SeriesSettings.of(Settings())
+    x, bin_s, at = wrist_in_bins(signer(), "right", series)
+    prior = prior_of(series.prior, 0.001, x, "m")
+    longest = round(series.continuous.longest_segment_s / bin_s)
+    for order in (0, 3, 7):
+        posterior = fit(x, [order], prior, bin_s, sample_at=at, max_segment_bins=longest)
+        one = found["right", order]
+        curve = unpacked(one["values"])[:, 0]
+        assert np.abs(curve - posterior.boundary_probability(order)).max() <= 0.0021
+        times = np.cumsum(one["times"]) / 1000
+        assert times == pytest.approx(posterior.boundaries_s(order), abs=6e-4)
+        assert one["first"] == pytest.approx(posterior.times_s([0])[0])
+    assert sum(found["left", order]["probability"] for order in range(8)) == pytest.approx(
+        1, abs=1e-3
+    )
+    # The order of the run's tables has the same boundaries in both.
+    stems = {one["hand"]: one for one in data["boundaries"]}
+    assert stems["right"]["order"] == 3 and stems["right"]["times"] == found["right", 3]["times"]
+
+
+def test_a_very_long_recording_has_the_density_of_one_order(tmp_path, monkeypatch):
+    monkeypatch.setattr("signkin.explorer.densities.MOST_BINS", 100)
+    _, data = pages_of(tmp_path, [signer()], binned=True)
+    assert {one["order"] for one in data["densities"]} == {3}
+    assert any("density of boundaries is of one order" in text for text in data["missing"])
 
 
 def test_a_gloss_cannot_leave_its_place(tmp_path):

@@ -13,6 +13,7 @@ from signkin.binning import (
     hpfpps,
     match,
 )
+from signkin.binning.shifted import Shifted, shifted_hits, shifted_rates
 
 NAN, INF = float("nan"), float("inf")
 
@@ -210,3 +211,40 @@ def test_chance_depends_on_its_seed_alone_and_rises_with_the_rate():
 def test_chance_of_nothing_is_refused(truths, durations, rates):
     with pytest.raises(SignkinError, match="hit_rate"):
         chance_line(truths, durations, 1, rates)
+
+
+# --- the same boundaries, shifted in a circle
+
+
+def test_shifted_boundaries_hit_by_what_their_windows_cover():
+    """One boundary and one truth: the window's share of the circle; two of each: twice that."""
+    one = shifted_hits([0.7], [1.1], 0.09, duration_s=2.0)
+    assert one.mean == pytest.approx(2 * 0.09 / 2, abs=0.006)
+    assert one.sd == pytest.approx(np.sqrt(one.mean * (1 - one.mean)))
+    # Two that stand as far apart as the true ones hit both or none; others one at a time.
+    same = shifted_hits([0.2, 0.8], [0.9, 1.5], 0.09, duration_s=2.0)
+    other = shifted_hits([0.2, 1.2], [0.9, 1.5], 0.09, duration_s=2.0)
+    for found in (same, other):
+        assert found.mean == pytest.approx(4 * 0.09 * 2 / 2, abs=0.012)
+    assert same.sd > other.sd
+    # Evenly spaced ones a window apart hit wherever they are: Poisson events would not.
+    even = shifted_hits(np.arange(0, 2, 0.18), [0.9], 0.09, duration_s=2.0)
+    assert even.mean > 0.97 > 1 - np.exp(-11 * 0.18 / 2) + 0.3
+
+
+def test_shifted_boundaries_of_no_movement_are_an_error_and_none_hit_nothing():
+    assert shifted_hits([], [0.5], 0.09, duration_s=2.0) == Shifted(0.0, 0.0)
+    assert shifted_hits([0.5], [], 0.09, duration_s=2.0) == Shifted(0.0, 0.0)
+    with pytest.raises(SignkinError, match="a duration of 0 s"):
+        shifted_hits([0.5], [0.5], 0.09, duration_s=0.0)
+
+
+def test_a_group_shifted_by_hand():
+    found = shifted_rates(
+        [Shifted(1.0, 0.5), Shifted(0.5, 0.5), Shifted(0.0, 0.0)], [2, 2, 0], [3, 2, 4], [2, 1, 1]
+    )  # fmt: skip
+    assert found.hit_rate == pytest.approx(0.375)
+    assert found.high - found.hit_rate == pytest.approx(1.96 * np.sqrt(2 * 0.25**2) / 2, rel=1e-3)
+    assert found.hpfpps == pytest.approx((1.5 / 4) / (3.5 / 3))
+    assert np.isnan(shifted_rates([Shifted(0.0, 0.0)], [0], [3], [1.0]).hit_rate)
+    assert np.isnan(shifted_rates([Shifted(0.0, 0.0)], [1], [0], [1.0]).hpfpps)

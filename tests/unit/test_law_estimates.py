@@ -50,22 +50,60 @@ def test_a_filter_bends_exponents_without_any_noise(beta, low, high):
 def test_noise_alone_has_an_exponent_and_a_high_correlation():
     found = pitfall(float("nan"), 0.8, 8e-4, RATE, fir, np.random.default_rng(1), 30)
     assert found.r.mean() < -0.6
-    for name in ESTIMATORS:
+    for name in (NON_LINEAR, LOGARITHMS):
         assert found.values[name].mean() < -0.1
     # Its size is the filter's affair, not the noise's.
     again = pitfall(float("nan"), 0.8, 8e-3, RATE, fir, np.random.default_rng(1), 30)
     assert again.values[LOGARITHMS] == pytest.approx(found.values[LOGARITHMS], abs=1e-6)
 
 
+@pytest.mark.parametrize("rate", [25.0, RATE])
+def test_with_errors_in_both_noise_alone_has_no_exponent(rate):
+    """Deming's line had one with an SD of 6 over draws at 25 Hz: its noise has no first axis."""
+
+    def filtered(x):
+        return lowpass(x, rate, 6.0, method="fir")
+
+    found = pitfall(float("nan"), 0.8, 5e-4, rate, filtered, np.random.default_rng(1), 40)
+    assert found.told(BOTH_ERRORS) == 0 and found.told(LOGARITHMS) == 40
+    assert np.isnan([found.mean(BOTH_ERRORS), found.sd(BOTH_ERRORS)]).all()
+    # A movement in more noise than that is told, and nearer to what the filter leaves of it.
+    law = pitfall(-1 / 3, 0.8, 3e-3, rate, filtered, np.random.default_rng(1), 40)
+    exact = pitfall(-1 / 3, 0.8, 0.0, rate, filtered, np.random.default_rng(1), 1)
+    off = {name: abs(law.mean(name) - exact.mean(name)) for name in (BOTH_ERRORS, LOGARITHMS)}
+    assert law.told(BOTH_ERRORS) > 30 and law.sd(BOTH_ERRORS) < 0.1
+    assert off[BOTH_ERRORS] < 0.6 * off[LOGARITHMS]
+
+
 def test_errors_in_curvature_flatten_the_line_and_the_third_regression_mends_it():
     rng = np.random.default_rng(4)
-    log_k = rng.normal(0, 0.5, 20_000)
-    v = np.exp(-0.4 * log_k + rng.normal(0, 0.05, 20_000))
-    k = np.exp(log_k + rng.normal(0, 0.4, 20_000))
-    # Noise and gains whose errors are these where speed and curvature are 1: SD 0.4 and 0.05.
-    found = estimates(v, k, 1.0, (0.05, np.sqrt(0.4**2 - 4 * 0.05**2)))
-    assert found.beta[LOGARITHMS] == pytest.approx(-0.4 * 0.25 / (0.25 + 0.16), abs=0.01)
+    log_k, of_speed = rng.normal(0, 0.5, 20_000), rng.normal(0, 0.05, 20_000)
+    v = np.exp(-0.4 * log_k + of_speed)
+    k = np.exp(log_k + rng.normal(0, 0.3, 20_000) - 2 * of_speed)
+    # Noise and gains whose errors are these where speed and curvature are 1: SD 0.05 and 0.3.
+    found = estimates(v, k, 1.0, (0.05, 0.3))
+    seen = 0.25 + 0.09 + 4 * 0.0025
+    assert found.beta[LOGARITHMS] == pytest.approx((-0.4 * 0.25 - 2 * 0.0025) / seen, abs=0.01)
     assert found.beta[BOTH_ERRORS] == pytest.approx(-0.4, abs=0.02)
+    assert found.reliability == pytest.approx(0.25 / seen, abs=0.02) and not found.note
+
+
+def test_scatter_that_is_no_noise_does_not_turn_the_line_upright():
+    """A movement without a law: Deming's line through it has any slope, up to 40 on isl-sim."""
+    rng = np.random.default_rng(6)
+    k = np.exp(rng.normal(0, 0.5, 400))
+    v = np.exp(-0.05 * np.log(k) + rng.normal(0, 0.7, 400))
+    found = estimates(v, k, 1e-3, (1.0, 10.0))
+    assert found.beta[BOTH_ERRORS] == pytest.approx(found.beta[LOGARITHMS], abs=0.01)
+
+
+def test_half_noise_is_no_exponent_and_a_sentence():
+    rng = np.random.default_rng(7)
+    k = np.exp(rng.normal(0, 0.5, 200))
+    found = estimates(k**-0.3, k, 1.0, (0.05, 0.4))
+    assert np.isnan(found.beta[BOTH_ERRORS])
+    assert found.note.startswith("no exponent with errors in both: noise makes ")
+    assert np.isfinite([found.beta[NON_LINEAR], found.beta[LOGARITHMS]]).all()
 
 
 def test_gains_are_those_of_filtered_noise():

@@ -20,6 +20,7 @@ from signkin.statistics.nulls import (
     SHARE,
     Null,
     against_nulls,
+    change_against_nulls,
     distances,
     placed,
     stretches,
@@ -174,6 +175,20 @@ def test_the_simulated_corpus_rejects_every_null(root):
         rows = found[(found["measure"] == MEAN_SHARE) & (found["null"] != POISSON)]
         assert (rows["p"] <= 0.01).all()
         assert (rows["value"] > rows["chance_high"]).all()
+
+
+def test_changes_of_durations_beside_those_of_tags_by_chance():
+    """Minima every 0.4 s: a tag by chance moves 0.1 s; tags on minima do not move at all."""
+    minima = np.arange(0, 40, 0.4)
+    on = np.column_stack([minima[2:90:3], minima[3:91:3]])
+    still = change_against_nulls(stretches(on, minima, 100.0), 60, np.random.default_rng(1), 0.2)
+    assert (still["value"] == 0).all() and (still["chance_low"] > 0.05).any()
+    off = on + np.array([0.1, -0.05])
+    moved = change_against_nulls(stretches(off, minima, 100.0), 60, np.random.default_rng(1), 0.2)
+    assert moved["value"].to_numpy() == pytest.approx(0.15)
+    assert moved["n"].tolist() == [len(on) - 1] * 3
+    with pytest.raises(SignkinError, match="no transition to compare"):
+        change_against_nulls(stretches(on[:1], minima, 100.0), 9, np.random.default_rng(1), 0.2)
 
 
 def test_what_cannot_be_compared_is_one_sentence():

@@ -79,7 +79,8 @@ def test_the_wheel_holds_the_package_and_its_data_and_nothing_else(wheel, root):
     home = root / "src"
     there = {
         path.relative_to(home).as_posix()
-        for path in (home / "signkin").rglob("*")
+        for package in ("signkin", "snakemake_logger_plugin_signkin")
+        for path in (home / package).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     assert found == there

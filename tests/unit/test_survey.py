@@ -257,12 +257,56 @@ def test_a_folder_becomes_a_corpus_that_can_be_checked(tmp_path, capsys):
     )  # fmt: skip
     assert corpus.settings["annotation"]["sign_tier"] == "glosses"
     assert corpus.noise_sd == pytest.approx(0.0005, rel=0.2)
+    signs = into / "signs.csv"
+    rows = signs.read_text().splitlines()
+    assert rows[0] == "gloss,hands,symmetric,source"
+    assert rows[1:] == [f"G{i},,,ASK: its type? glosses: 1" for i in range(len(tags_of(stops)))]
+    assert corpus.signs == () and f"types of {len(rows) - 1} glosses" in said
     out = tmp_path / "out"
     check = ["corpus", "check", str(into), "--data", str(folder.parent), "--out", str(out)]
     assert main(check) == 0
     assert (out / "index.html").stat().st_size > 1000
     assert main(["corpus", "init", str(folder), "--into", str(into)]) == 1
     assert "it is there already" in capsys.readouterr().err
+    signs.write_text("gloss,hands,symmetric\nG0,0,0\n")
+    (into / "corpus.yaml").unlink()
+    assert main(["corpus", "init", str(folder), "--into", str(into)]) == 0
+    assert "signs.csv" not in capsys.readouterr().out
+    assert load_corpus(into).lexicon == {"G0": "00"}
+
+
+def test_init_reads_what_has_to_be_declared_and_asks_for_it(tmp_path, capsys):
+    """Landmarks by their number, a clock that starts later, uneven times."""
+    folder = tmp_path / "points"
+    folder.mkdir()
+    rng = np.random.default_rng(1)
+    points = rng.normal(400, 100, (1, 33, 2)) + np.cumsum(rng.normal(0, 1, (40, 33, 2)), axis=0)
+    np.save(folder / "a.npy", points)
+    assert main(["corpus", "init", str(folder), "--into", str(tmp_path / "c1")]) == 0
+    assert "whose landmarks are these?" in capsys.readouterr().out
+    motion = load_corpus(tmp_path / "c1").settings["motion"]
+    assert motion["options"] == {"landmarks": "mediapipe_pose"} and motion["unit"] == "px"
+    assert motion["joints"]["right_wrist"] == "RIGHT_WRIST"
+    for name, times, asked in (
+        ("late", 7 + np.arange(30) / 50, {"clock": "first_frame"}),
+        ("uneven", np.cumsum(np.tile([0.021, 0.034], 15)) - 0.021, {"resample_hz": 36.4}),
+    ):
+        folder = tmp_path / name
+        folder.mkdir()
+        sides = ",".join(f"{s}_{p}_{a}" for s in ("right", "left") for p in ("wrist", "elbow")
+                         for a in "xyz")  # fmt: skip
+        rows = [",".join([f"{t:.3f}", *(f"{v:.3f}" for v in rng.normal(size=12))]) for t in times]
+        (folder / "m.csv").write_text("\n".join([f"time,{sides}", *rows]) + "\n")
+        assert main(["corpus", "init", str(folder), "--into", str(tmp_path / f"c{name}")]) == 0
+        assert load_corpus(tmp_path / f"c{name}").settings["motion"]["options"].items() >= (
+            asked.items()
+        )
+        capsys.readouterr()
+
+
+def test_names_with_dots():
+    found = joint_map(["R.Thigh.Rear", "Top.Head", "R.Elbow", "hand.L", "Rear", "L.Ear"])
+    assert found == {"right_elbow": "R.Elbow", "left_wrist": "hand.L", "left_ear": "L.Ear"}
 
 
 def test_a_folder_without_motion_is_told(tmp_path, capsys):

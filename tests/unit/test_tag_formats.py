@@ -238,10 +238,10 @@ def test_times_that_cannot(cell, spec):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("start,end,label\n0,1,A\n1,2\n", "line 3: 2 cells, fewer than the header has"),
-        ("start,end,label\n0,1,A,\n", "line 2: 4 cells, more than the header has"),
+        ("start,end,label\n0,1,A\n1,2\n", "line 3: 2 cells; expected 3, as in the header"),
+        ("start,end,label\n0,1,A,x\n", "line 2: 4 cells; expected 3"),
         ("start,end,label,end\n0,1,A,2\n", "line 1: 2 columns are called 'end'"),
-        ('start,end,label\n0,1,"A\n2,3,B\n', "line 2: not readable as a table"),
+        ('start,end,label\n0,1,"A\n2,3,B\n', "line 2: not readable as CSV"),
         ("start,end,label\n0,inf,A\n", "line 2, column end: found 'inf'"),
         ("start,stop,label\n0,1,A\n", "no column 'end'; expected start, stop, label"),
         ("", "line 1: nothing in it"),

@@ -14,6 +14,7 @@ import pytest
 from signkin import Annotation, Interval, SignkinError, read_annotation
 from signkin.io.eaf import NewTier, insert_tiers
 from signkin.io.eaf_write import new_eaf
+from support.c3d_files import write_events
 
 FILES = int(os.environ.get("SIGNKIN_FUZZ", "500"))
 LONGEST_S = 5.0
@@ -96,11 +97,18 @@ def damaged(content: bytes, rng: random.Random) -> bytes:
     return bytes(out)
 
 
-@pytest.mark.parametrize("format", FORMATS)
+@pytest.mark.parametrize("format", [*FORMATS, "c3d_events"])
 def test_damaged_files_raise_no_foreign_exception(tmp_path, format):
-    text, options = FORMATS[format]
-    content = text.encode()
     path = tmp_path / "x"
+    if format == "c3d_events":
+        signs = [("Sign", "Right", "HAUS", 0.1), ("End", "Right", "", 0.3)]
+        content, options = (
+            write_events(tmp_path / "e.c3d", signs)[0].read_bytes(),
+            {"blank": ["End"]},
+        )
+    else:
+        text, options = FORMATS[format]
+        content = text.encode()
     path.write_bytes(content)
     assert read_annotation(path, format=format, **options).intervals  # the whole file is good
     read = 0

@@ -29,9 +29,9 @@ def test_every_claim_has_a_verdict_on_every_corpus_of_the_run(simulated_run):
 def test_the_simulation_carries_what_it_was_made_to_carry(simulated_run):
     found = read_table(simulated_run.results / "audit/claims.csv", "claims")
     there = found[found["evidence"] == "lsf-sim"].set_index("id")["verdict"]
-    for claim in ("N02", "N03", "N04", "N07", "N09", "N10", "N11", "N12", "N13", "N15"):
+    of_print = ("N02", "N03", "N04", "N05", "N07", "N09", "N10", "N11", "N12", "N13", "N15")
+    for claim in of_print:
         assert there[claim] == "by construction", claim
-    assert there["N05"] == "holds"
     assert there["N19"] == "holds"  # the positive control of its nulls
     assert there["N18"] == "fails"  # the outlier of 79 frames is in it
 

@@ -6,7 +6,8 @@ import pytest
 import yaml
 
 from signkin import tables
-from support.runs import MINI, checked, run
+from support.less import LESS
+from support.runs import MINI, checked, prepare, run, write_mini
 
 
 def sentence(done):
@@ -137,52 +138,55 @@ def test_bad_input_is_one_sentence_and_leaves_nothing_done(mini, case):
         assert not made & {"0001.parquet", "intervals.csv"}
 
 
-def test_a_mini_corpus_runs_to_its_report(mini):
+@pytest.fixture(scope="module")
+def two(tmp_path_factory):
+    """A run of two mini corpora: one with a gloss that never occurs, one of 400 Hz with a gap."""
+    base = tmp_path_factory.mktemp("two")
+    folder = prepare(base / "run", corpora=["fast", "mini"], **LESS)
+    corpus, _ = write_mini(folder, base / "data")
+    (corpus / "signs.csv").write_text("gloss,hands,symmetric\nCAKE,1,1\nCAKES,1,1\n")
+    fast = yaml.safe_load(yaml.safe_dump(MINI))
+    fast["motion"]["rate_hz"] = 400
+    fast |= {"on_error": "skip", "title": "Fast", "data_folder": "fast"}
+    corpus, data = write_mini(folder, base / "data", "fast", **fast)
+    edit("m1.csv", lambda text: riddle(text, 200))(corpus, data)  # half a second at 400 Hz
+    for i in (1, 2):
+        path = data / f"t{i}.csv"
+        lines = path.read_text().splitlines()
+        cells = [line.split(",") for line in lines[1:]]
+        rows = [f"{float(a) / 8:.4f},{float(b) / 8:.4f},{g}" for a, b, g in cells]
+        path.write_text("\n".join([lines[0], *rows]) + "\n")
+    return checked(run(folder, data=base / "data"))
+
+
+def test_a_mini_corpus_runs_to_its_report(two):
     """And tells of a gloss in signs.csv that never occurs."""
-    folder, data = mini(lambda corpus, data: (corpus / "signs.csv").write_text(
-        "gloss,hands,symmetric\nCAKE,1,1\nCAKES,1,1\n"
-    ))  # fmt: skip
-    done = checked(run(folder, data=data))
-    moves = tables.read_table(done.results / "naert2017/mini/transitions.csv", "transitions")
+    moves = tables.read_table(two.results / "naert2017/mini/transitions.csv", "transitions")
     whole = moves[(moves["hand"] == "both")]
     assert len(whole) == 16
     assert set(whole["type_source"]) == {"kinematic"}  # one of two signs is not in signs.csv
     assert whole["geodesic_rad"].notna().all()
-    lexicon = tables.read_table(done.results / "naert2017/mini/lexicon.csv", "lexicon")
+    lexicon = tables.read_table(two.results / "naert2017/mini/lexicon.csv", "lexicon")
     notes = lexicon.set_index("gloss")["note"].to_dict()
     assert notes["CAKES"].startswith("occurs in no recording")
     assert notes["IX"].startswith("not in signs.csv")
     assert notes["CAKE"] == ""
-    page = (done.results / "report/index.html").read_text(encoding="utf-8")
+    page = (two.results / "report/index.html").read_text(encoding="utf-8")
     assert "real recordings" in page
-    paper = (done.results / "report/papers/naert2017.html").read_text(encoding="utf-8")
+    paper = (two.results / "report/papers/naert2017.html").read_text(encoding="utf-8")
     assert "limb and palm frames" in paper
     assert "signs.csv has 1 glosses that occur in no recording: CAKES" in page
 
 
-def test_bad_recordings_and_implausible_rates_are_told_in_the_report(mini):
+def test_bad_recordings_and_implausible_rates_are_told_in_the_report(two):
     """A recording without a wrist is left out where the corpus allows; 400 Hz cannot be."""
-    fast = yaml.safe_load(yaml.safe_dump(MINI))
-    fast["motion"]["rate_hz"] = 400
-
-    def squeeze(corpus, data):
-        edit("m1.csv", lambda text: riddle(text, 200))(corpus, data)  # half a second at 400 Hz
-        for i in (1, 2):
-            path = data / f"t{i}.csv"
-            lines = path.read_text().splitlines()
-            cells = [line.split(",") for line in lines[1:]]
-            rows = [f"{float(a) / 8:.4f},{float(b) / 8:.4f},{g}" for a, b, g in cells]
-            path.write_text("\n".join([lines[0], *rows]) + "\n")
-
-    folder, data = mini(squeeze, on_error="skip", **fast)
-    done = checked(run(folder, data=data))
-    excluded = tables.read_table(done.results / "mini/excluded.csv", "excluded")
+    excluded = tables.read_table(two.results / "fast/excluded.csv", "excluded")
     assert excluded["recording"].tolist() == ["m1"]
     assert excluded["stage"].tolist() == ["wrists"]
-    moves = tables.read_table(done.results / "naert2017/mini/transitions.csv", "transitions")
+    moves = tables.read_table(two.results / "naert2017/fast/transitions.csv", "transitions")
     assert set(moves["recording"]) == {"m2"}
-    page = (done.results / "report/index.html").read_text(encoding="utf-8")
-    assert "mini: recording m1 is left out." in page
+    page = (two.results / "report/index.html").read_text(encoding="utf-8")
+    assert "fast: recording m1 is left out." in page
     assert "wrist speed, 99th percentile is implausible in" in page
     assert "no hand moves so fast" in page
 

@@ -17,7 +17,7 @@ from signkin.exhibits import exhibits
 from signkin.report.attempts import ABSENT
 from signkin.statistics import descriptive
 from signkin.studies.naert2017.transitions import counted
-from support.runs import checked, command, environment, prepare, run, signkin
+from support.runs import checked, command, environment, files_of, prepare, run, signkin
 
 
 def table(done, name, kind=None):
@@ -173,15 +173,6 @@ def test_a_second_run_does_nothing(own_copy):
     assert "Nothing to be done" in again.text
 
 
-def files_of(folder):
-    """Return the bytes of every result, with the run's own folder taken out of the names."""
-    return {
-        str(path.relative_to(folder)): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }
-
-
 def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
     results = own_copy.results
     cut, flipped = results / "lsf-sim/shards/0001/intervals.csv", results / "lsf-sim/intervals.csv"
@@ -201,25 +192,33 @@ def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
     assert signkin("verify", folder=own_copy.folder).status == 0
 
 
+def killed(folder, targets, jobs):
+    """Run until so many more jobs have ended, and kill all of it."""
+    records = folder / ".snakemake/signkin-written"  # one a job
+    before = len(list(records.glob("*.json")))
+    process = subprocess.Popen(
+        command("--cores", "2", *targets), cwd=folder, env=environment(None),
+        start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    deadline = time.monotonic() + 300
+    while time.monotonic() < deadline and process.poll() is None:
+        if len(list(records.glob("*.json"))) >= before + jobs:
+            break
+        time.sleep(0.02)
+    assert process.poll() is None, "the run was over before it could be killed"
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
 def test_one_core_after_being_killed_gives_the_same_bytes(simulated_run, tmp_path):
-    """The next run completes what a killed one left, with other cores, to the same bytes.
+    """The next run completes what five killed ones left, with other cores, to the same bytes.
 
     On the first study; tests of the second have their own comparison.
     """
     folder = prepare(tmp_path / "run")
     targets = ("naert2017", "naert2017_durations")
-    process = subprocess.Popen(
-        command("--cores", "2", *targets), cwd=folder, env=environment(None),
-        start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    deadline = time.monotonic() + 120
-    while time.monotonic() < deadline and process.poll() is None:
-        if (folder / "results/naert2017/lsf-sim/shards").exists():
-            break
-        time.sleep(0.05)
-    assert process.poll() is None, "the run was over before it could be killed"
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+    for jobs in (1, 2, 2, 2, 2):
+        killed(folder, targets, jobs)
     checked(run(folder, "--cores", "1", *targets))
     first, second = files_of(simulated_run.results), files_of(folder / "results")
     assert len(second) > 60

@@ -4,11 +4,19 @@ import numpy as np
 import pytest
 import yaml
 
+from signkin.tables import read_table
 from signkin.unavailable import rows_of
+from support.elan_rules import broken
 from support.in_process import run_in_process
 from support.less import LESS
-from support.runs import MINI, RATE, mini_motion, prepare
+from support.runs import MINI, RATE, mini_motion, prepare, signkin
 
+# As the page of the corpus saves them.
+RATINGS = """corpus,recording,start_s,end_s,gloss,rating,note
+rated,m2,,,,exclude,"the signer laughs, twice"
+rated,m1,3.000,3.600,CAKE,exclude,half a sign
+rated,m3,,,,ok,looked at
+"""
 TAGGED = "recording,signer,motion,annotation\nm,s1,m.csv,t.csv\n"
 
 
@@ -67,6 +75,14 @@ def run(tmp_path_factory):
              annotation=None)  # fmt: skip
     riddled = blank(moved, "right_wrist", 1, 9)
     describe(folder, "nothing", TAGGED, {"m.csv": riddled, "t.csv": tags(9)}, on_error="skip")
+    several = "recording,signer,motion,annotation\n" + "".join(
+        f"m{i},s{i},m{i}.csv,t.csv\n" for i in (1, 2, 3)
+    )
+    files = {"t.csv": tags(9), **{f"m{i}.csv": mini_motion(12, i) for i in (1, 2, 3)}}
+    describe(folder, "rated", several, files)
+    ratings = folder / "ratings-rated.csv"
+    ratings.write_text(RATINGS)
+    signkin("corpus", "rate", ratings.name, folder=folder)
     names = [path.name for path in (folder / "corpora").iterdir()]
     prepare(folder, corpora=sorted(names), **LESS)
     return folder, run_in_process(folder, folder / "data")
@@ -126,3 +142,26 @@ def test_a_corpus_without_a_usable_recording_does_not_end_the_run(run):
     reasons = {reason for some in lacks(run, "nothing").values() for reason in some}
     assert any("most_missing" in reason for reason in reasons), reasons
     assert np.all(["m.csv" not in reason or "wrist" in reason for reason in reasons])
+
+
+def test_what_was_rated_exclude_is_left_out_of_the_next_run_counted_and_listed(run):
+    results = run[0] / "results"
+    excluded = read_table(results / "rated/excluded.csv", "excluded")
+    assert excluded[["recording", "stage"]].to_numpy().tolist() == [["m2", "rating"]]
+    about = read_table(results / "rated/recordings.csv", "recordings").set_index("recording")
+    assert about["tags_left_out"].to_dict() == {"m1": 1, "m3": 0}
+    assert about["signs"].to_dict() == {"m1": 8, "m3": 9}
+    moves = read_table(results / "naert2017/rated/transitions.csv", "transitions")
+    assert set(moves["recording"]) == {"m1", "m3"}
+    front = (results / "report/index.html").read_text(encoding="utf-8")
+    assert "rated: recording m2 is left out." in front and "the signer laughs, twice" in front
+    assert "rated, m1: 1 tags left out." in front and "CAKE at 3.000 s: rated `exclude`" in front
+    todo = read_table(results / "report/corpora/rated_todo.csv", "corpus_todo")
+    assert "the signer laughs, twice" in str(todo["why"].tolist())
+    # Each recording of the list has an ELAN file with a tier `check`.
+    listed = set(todo.loc[todo["rank"] < 4, "recording"])
+    files = {
+        path.stem: path.read_bytes() for path in (results / "report/corpora").glob("rated_check/*")
+    }
+    assert set(files) == listed and all(broken(content) == [] for content in files.values())
+    assert all(b'TIER_ID="check"' in content for content in files.values())

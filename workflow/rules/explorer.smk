@@ -5,6 +5,7 @@ from signkin.explorer.sources import ExplorerSettings
 rule explorer:
     """Recordings to look at, a page each."""
     input:
+        rules.compile_kernels.output,
         recordings_of=of_shards(rules.ingest.output.recordings),
         frames=of_shards(rules.kinematics.output.frames),
         posteriors=branch(

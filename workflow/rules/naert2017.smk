@@ -69,6 +69,7 @@ rule naert_tables:
     output:
         boundaries="<results>/naert2017/{corpus}/boundaries.csv",
         posteriors="<results>/naert2017/{corpus}/boundary_posteriors.csv",
+        posterior_durations="<results>/naert2017/{corpus}/posterior_durations.csv",
         sign_types="<results>/naert2017/{corpus}/sign_types.csv",
         transitions="<results>/naert2017/{corpus}/transitions.csv",
         lexicon="<results>/naert2017/{corpus}/lexicon.csv",
@@ -95,6 +96,7 @@ rule naert_figures:
     """Figures 4 to 10, with the numbers drawn in them."""
     input:
         boundaries=rules.naert_tables.output.boundaries,
+        posteriors=rules.naert_tables.output.posteriors,
         sign_types=rules.naert_tables.output.sign_types,
         transitions=rules.naert_tables.output.transitions,
         minima=rules.gather.output.minima,
@@ -106,6 +108,7 @@ rule naert_figures:
             of_groups(NAERT_EXHIBITS, "figures"), "<results>/naert2017/{corpus}"
         ),
         diamond="<results>/naert2017/{corpus}/diamond.csv",
+        posterior=multiext("<results>/naert2017/{corpus}/fig_posterior", ".svg", ".pdf"),
         captions="<results>/naert2017/{corpus}/captions.json",
     log:
         "<logs>/naert2017/{corpus}/figures.log",
@@ -160,6 +163,32 @@ rule simulation_check:
         "../scripts/naert2017/simulation_check.py"
 
 
+if PLAN.with_annotators:
+
+    rule annotators:
+        """How far the annotators of a corpus agree, before and after refinement."""
+        input:
+            about=rules.gather.output.recordings,
+            intervals=rules.gather.output.intervals,
+            minima=rules.gather.output.minima,
+            sign_types=rules.naert_tables.output.sign_types,
+            files=lambda w: PLAN.annotator_files(w.corpus),
+        output:
+            annotator_agreement="<results>/naert2017/{corpus}/annotator_agreement.csv",
+            annotator_offsets="<results>/naert2017/{corpus}/annotator_offsets.csv",
+            annotator_refined="<results>/naert2017/{corpus}/annotator_refined.csv",
+        log:
+            "<logs>/naert2017/{corpus}/annotators.log",
+        params:
+            code=PLAN.digest("naert2017/annotators.py"),
+            corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+            data=lambda w: str(PLAN.folders[w.corpus]),
+            seed=SETTINGS.seed,
+            settings=TableSettings.of(SETTINGS),
+        script:
+            "../scripts/naert2017/annotators.py"
+
+
 rule naert2017:
     """Tables and figures of Naert et al. 2017 for every corpus with tags."""
     input:
@@ -167,6 +196,10 @@ rule naert2017:
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
         collect(rules.write_elan.output, corpus=PLAN.tagged),
         collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),
+        collect(
+            rules.annotators.output if PLAN.with_annotators else [],
+            corpus=PLAN.with_annotators,
+        ),
 
 
 rule synthesis:
@@ -179,6 +212,7 @@ rule synthesis:
     output:
         synthesis="<results>/naert2017/{corpus}/synthesis/synthesis.csv",
         synthesis_summary="<results>/naert2017/{corpus}/synthesis/synthesis_summary.csv",
+        readings_synthesis="<results>/naert2017/{corpus}/synthesis/readings_synthesis.csv",
     log:
         "<logs>/naert2017/{corpus}/synthesis.log",
     params:

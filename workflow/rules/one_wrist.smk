@@ -35,12 +35,18 @@ rule one_wrist:
             then=rules.naert_tables.output.boundaries,
             otherwise=[],
         ),
+        posteriors=branch(
+            lambda w: w.corpus in PLAN.tagged,
+            then=rules.naert_tables.output.posteriors,
+            otherwise=[],
+        ),
         frames=of_shards(rules.kinematics.output.frames),
     output:
         wrist_posteriors="<results>/endres2013/{corpus}/wrist_posteriors.csv",
         wrist_boundaries="<results>/endres2013/{corpus}/wrist_boundaries.csv",
         binning_left_out="<results>/endres2013/{corpus}/wrists_left_out.csv",
         one_wrist="<results>/endres2013/{corpus}/one_wrist.csv",
+        segmentation_scores="<results>/endres2013/{corpus}/segmentation_scores.csv",
         endres_figure="<results>/endres2013/{corpus}/fig_one_wrist.csv",
         svg="<results>/endres2013/{corpus}/fig_one_wrist.svg",
         pdf="<results>/endres2013/{corpus}/fig_one_wrist.pdf",

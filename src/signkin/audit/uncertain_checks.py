@@ -1,7 +1,7 @@
 """Checks on rows of recordings that tell how sure they are: no sharper than the rows allow.
 
 A mean holds where its interval lies on one side of the bound, and fails where it lies on the
-other; else it is undecided. Draws are of whole signers and signs (signkin.resampling).
+other; else it is undecided. Draws weigh whole signers and signs (signkin.resampling).
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def mean_of(
     """A mean over recordings (or tags, transitions) lies above, or below, a bound, surely.
 
     unit: columns that name a recording; take: the mean or sum of its rows. clusters: one or two
-    columns, such as signer and sign, that the 95 % bootstrap draws whole; without, units count as
+    columns, such as signer and sign, that the 95 % bootstrap weighs whole; without, units count as
     independent. Undecided where the interval holds the bound.
     """
     if (above is None) == (below is None):

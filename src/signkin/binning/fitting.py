@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,8 @@ from signkin.binning.evidence import Engine
 from signkin.binning.posterior import Posterior
 from signkin.binning.prior import HIGHEST_ORDER, Prior
 from signkin.binning.segmentation_prior import log_uniform
-from signkin.errors import SignkinError
+from signkin.errors import SignkinError, listed
+from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
 
@@ -29,7 +31,7 @@ def fit(
     dt_s: float | None = None,
     max_count: int | None = None,
     max_segment_bins: int | None = None,
-    expectations: bool = True,
+    expectations: bool | Sequence[int] = True,
     name: str = "trajectory",
     sample_at: float = 0.5,
 ) -> Posterior:
@@ -45,7 +47,7 @@ def fit(
     is left out. A count takes 128 bytes of memory a bin.
     max_segment_bins: the longest segment; segmentations with longer ones have no prior
     probability, the others share it evenly.
-    expectations: whether to work out expected trajectories and noise too.
+    expectations: whether to work out expected trajectories and noise too, or of which orders.
 
     Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
     """
@@ -68,9 +70,10 @@ def fit(
         found = counted(engine.by_segment(), wanted, bins, longest, max_count)
     else:
         found = in_band(engine.by_order(), wanted, bins, longest)
+    expected = _expected(expectations, wanted, name)
     mean = noise = None
-    if expectations:
-        mean, noise = engine.expect(found.segments, wanted)
+    if expected:
+        mean, noise = engine.expect(found.segments, expected)
     return Posterior(
         x=x,
         prior=prior,
@@ -84,9 +87,25 @@ def fit(
         cut_mass=found.cut_mass,
         _count_probability=found.probability,
         _boundary=found.boundary,
+        _expected=expected,
         _mean=mean,
         _noise=noise,
     )
+
+
+def _expected(
+    expectations: bool | Sequence[int], wanted: tuple[int, ...], name: str
+) -> tuple[int, ...]:
+    """Return the orders of which expectations are to be worked out."""
+    if isinstance(expectations, bool):
+        return wanted if expectations else ()
+    asked = tuple(expectations)
+    if not set(asked) <= set(wanted):
+        raise SignkinError(
+            f"expectations of the orders {listed(asked)}", file=name,
+            expected=f"of {listed(wanted)}, which are fitted",
+        )  # fmt: skip
+    return asked
 
 
 def fit_many(
@@ -119,8 +138,13 @@ def fit_many(
     jobs = zip(trajectories, priors, steps, places, called, strict=True)
     if workers <= 1:
         return [one(job) for job in jobs]
-    with ThreadPoolExecutor(max_workers=workers) as pool:
-        return list(pool.map(one, jobs))
+    return list(_pool(workers).map(one, jobs))
+
+
+@cache
+def _pool(workers: int) -> ThreadPoolExecutor:
+    """Return threads that stay, with the memory that each of them works in (room.py)."""
+    return ThreadPoolExecutor(max_workers=workers, thread_name_prefix="binning")
 
 
 def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:
@@ -143,12 +167,7 @@ def _checked(
 ) -> tuple[Floats, tuple[int, ...]]:
     try:
         x: Floats  # a copy: the caller may go on with his own
-        if np.ma.isMaskedArray(X):
-            x = np.array(
-                np.ma.filled(np.ma.asarray(X, dtype=float), np.nan), dtype=float, order="C"
-            )
-        else:
-            x = np.array(X, dtype=float, order="C")
+        x = np.array(unmasked(X), dtype=float, order="C")
     except (TypeError, ValueError) as error:
         raise SignkinError(
             f"the data are not an array of numbers ({error})",

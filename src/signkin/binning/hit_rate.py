@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signkin.binning.jit import kernel
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
 
@@ -446,7 +447,7 @@ def chance_line(
 
 
 def _times(values: ArrayLike, name: str) -> Floats:
-    times = np.asarray(values, dtype=float)
+    times = unmasked(values)
     if times.ndim != 1 or not np.isfinite(times).all():
         raise SignkinError(
             f"{name} has shape {times.shape} and {np.count_nonzero(~np.isfinite(times))} gaps",

@@ -53,6 +53,7 @@ class Posterior:
     cut_mass: Floats
     _count_probability: Floats
     _boundary: Floats
+    _expected: tuple[int, ...]  # the orders in the rows of the next two
     _mean: Floats | None
     _noise: Floats | None
 
@@ -141,17 +142,18 @@ class Posterior:
         off = (self.x - self.expected_trajectory(order)) / deviations
         return float(np.sqrt(np.mean(off**2)))
 
-    def doubts(self, order: int) -> str:
+    def doubts(self, order: int, misfit: float | None = None) -> str:
         """Return why the result of an order is to be doubted, in words; empty where it is not.
 
         M is the least that the longest segment allows, or the data lie more than
-        `MOST_MISFIT` of the prior's SDs off the expected trajectory.
+        `MOST_MISFIT` of the prior's SDs off the expected trajectory. misfit: the order's
+        `noise_misfit`, where it is known already.
         """
         told = []
         if self.at_floor(order):
             told.append(f"{self.least_count} boundaries are the least that the longest segment "
                         "allows: it made them, not the data")  # fmt: skip
-        misfit = self.noise_misfit(order)
+        misfit = self.noise_misfit(order) if misfit is None else misfit
         if misfit > MOST_MISFIT:
             told.append(f"the data lie {misfit:.1f} SDs of the prior's noise off the path")
         return "; ".join(told)
@@ -172,15 +174,20 @@ class Posterior:
 
     def expected_trajectory(self, order: int) -> Floats:
         """Return the posterior mean of the trajectory, (T, L), averaged over segmentations."""
-        return self._kept(self._mean)[self._row(order)]
+        return self._of_expected(self._mean, order)
 
-    def map_trajectory(self, order: int, count: int | None = None) -> Floats:
-        """Return the mean of the most probable segmentation, (T, L): exactly piecewise."""
-        ends = [*self.map_segmentation(order, count), len(self.x) - 1]
+    def map_trajectory(
+        self, order: int, count: int | None = None, ends: NDArray[np.int64] | None = None
+    ) -> Floats:
+        """Return the mean of the most probable segmentation, (T, L): exactly piecewise.
+
+        ends: that `map_segmentation`, where it is known already.
+        """
+        inner = self.map_segmentation(order, count) if ends is None else ends
         bins = len(self.x)
         chosen = np.zeros((order + 1, bins, self.max_segment_bins))
         start = 0
-        for end in ends:
+        for end in (*inner, bins - 1):
             chosen[order, start, end - start] = 1.0
             start = int(end) + 1
         means, _ = self._engine(order).expect(chosen, (order,))
@@ -188,17 +195,17 @@ class Posterior:
 
     def noise_covariance(self, order: int) -> Floats:
         """Return the noise covariance, (L, L): inverse expected precision, averaged over bins."""
-        return self._kept(self._noise)[self._row(order)]
+        return self._of_expected(self._noise, order)
 
-    @staticmethod
-    def _kept(values: Floats | None) -> Floats:
-        if values is None:
+    def _of_expected(self, values: Floats | None, order: int) -> Floats:
+        self._row(order)  # was it fitted at all?
+        if values is None or order not in self._expected:
             raise SignkinError(
                 "expectations were not asked for",
                 place="fit",
                 expected="fit(..., expectations=True)",
             )
-        return values
+        return values[self._expected.index(order)]
 
     def _evidence(self, order: int) -> Floats:
         return self._engine(order).by_order()[order]

@@ -163,25 +163,33 @@ def tables(prior: Prior, bins: int, longest: int, dimensions: int, n_orders: int
     )  # fmt: skip
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=128)
 def _tables(
     longest: int, n_orders: int, dimensions: int, b: float, step: float, dof: float,
     inverse_scale: tuple[float, ...],
 ) -> Tables:  # fmt: skip
-    from scipy.special import multigammaln  # takes half as long to import as numba
-
     geometry = _geometry(longest, n_orders, b, step)
     n = np.arange(1, longest + 1)
     log_scale = float(np.sum(np.log(inverse_scale)))
     # ln p = -nL/2 ln pi + L/2 (ln|B| - ln|A|) - n/2 ln|V^-1| + ln G((dof + n)/2) - ln G(dof/2)
     #        - (dof + n)/2 ln|I + R|
-    gamma = multigammaln((dof + n) / 2, dimensions) - multigammaln(dof / 2, dimensions)
+    gamma = _log_gamma_ratio(longest, dimensions, dof)
     rest = gamma - 0.5 * n * (dimensions * np.log(np.pi) + log_scale)
     constant = rest[:, None] + dimensions * geometry.log_ratio
     return Tables(
         geometry.cosine, geometry.sine, geometry.inverse, geometry.powers,
         np.ascontiguousarray(constant), (dof + n) / 2,
     )  # fmt: skip
+
+
+@lru_cache(maxsize=128)
+def _log_gamma_ratio(longest: int, dimensions: int, dof: float) -> NDArray[np.float64]:
+    """Return ln G((dof + n)/2) - ln G(dof/2) for n = 1..N, of multivariate gamma functions."""
+    from scipy.special import multigammaln  # takes half as long to import as numba
+
+    n = np.arange(1, longest + 1)
+    ratio = multigammaln((dof + n) / 2, dimensions) - multigammaln(dof / 2, dimensions)
+    return np.asarray(ratio, dtype=float)
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +201,7 @@ class _Geometry:
     log_ratio: NDArray[np.float64]  # (ln|B| - ln|A|) / 2 for each order
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=128)  # a study of priors goes through some 80 of them, again and again
 def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
     """Rotate one row after the other into the factor, in extended precision."""
     wide = np.longdouble

@@ -19,7 +19,7 @@ from signkin.coarticulation.refined_posterior import (
 from signkin.coarticulation.retrieval import retrieve
 from signkin.coarticulation.segmentation import refine, refine_each
 from signkin.coarticulation.synthesis import blend, interpolate
-from signkin.coarticulation.tag_model import TagModel
+from signkin.coarticulation.tag_model import TagModel, most_outward_s
 
 __all__ = [
     "DurationModel",
@@ -37,6 +37,7 @@ __all__ = [
     "interpolate",
     "jitter_between",
     "learn_tag_model",
+    "most_outward_s",
     "refine",
     "refine_each",
     "refine_posterior",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from signkin.masked import unmasked
+
 
 def geodesic_distance(q1: NDArray[np.float64], q2: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the mean over joints of ||log(q1^-1 q2)||, in radians (eq. 1).
@@ -14,6 +16,7 @@ def geodesic_distance(q1: NDArray[np.float64], q2: NDArray[np.float64]) -> NDArr
     rotation. Joints with a gap in either posture are left out of the mean; without any
     joint the result is NaN.
     """
+    q1, q2 = unmasked(q1), unmasked(q2)
     cosine = np.abs((q1 * q2).sum(axis=-1))
     # The vector part of q1^-1 q2; atan2 keeps small angles exact, where arccos does not.
     a, b = q1[..., :3], q2[..., :3]
@@ -26,7 +29,7 @@ def euclidean_distance(p1: NDArray[np.float64], p2: NDArray[np.float64]) -> NDAr
 
     p1, p2: (..., J, 3). Joints with a gap in either posture are left out of the mean.
     """
-    return _mean_over_joints(np.linalg.norm(p1 - p2, axis=-1))
+    return _mean_over_joints(np.linalg.norm(unmasked(p1) - unmasked(p2), axis=-1))
 
 
 def _mean_over_joints(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -26,6 +26,7 @@ from signkin.coarticulation.tag_model import (
     posterior,
 )
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
 OFF_S = 0.1  # a tag further than this from its boundary is off
@@ -66,6 +67,7 @@ def refine_posterior(
     minima_s: ArrayLike,
     prominence: ArrayLike | None = None,
     *,
+    acts: ArrayLike | None = None,
     model: TagModel | None = None,
     evidence: ArrayLike | None = None,
     evidence_rate_hz: float | None = None,
@@ -73,7 +75,8 @@ def refine_posterior(
     """Return the posterior of each boundary of one hand in one recording.
 
     intervals_s: (N, 2) manual starts and ends of signs, s. minima_s: (M,) minima of the hand's
-    speed. prominence: (M,) their depth, any unit; without, all count alike.
+    speed. prominence: (M,) their depth, any unit; without, all count alike. acts: (N,) whether
+    the hand does anything in the sign; tags of a sign in which it does not teach nothing of jitter.
     model: as `learn_tag_model` returns it, for several recordings or two annotators; None: learnt
     from this recording. evidence: (F,), another probability of a boundary in each frame (as
     binning gives it), `evidence_rate_hz` frames a second from 0 s. It counts as independent of the
@@ -90,8 +93,8 @@ def refine_posterior(
     given = TagModel() if model is None else model
     if not usable.any():
         return _nothing(tags, notes, given)
-    times, boundary_of = np.unique(tags[usable], return_inverse=True)
-    tagged = Tagged(times, minima, depth)
+    times, edge, idle, boundary_of = _boundaries(tags, usable, acts)
+    tagged = Tagged(times, edge, idle, minima, depth)
     if evidence is not None:
         tagged = replace(tagged, evidence=_evidence(tagged, evidence, evidence_rate_hz))
     if model is None:
@@ -117,20 +120,23 @@ def learn_tag_model(
     recordings: Sequence[tuple[ArrayLike, ArrayLike, ArrayLike | None]],
     model: TagModel | None = None,
     *,
+    acts: Sequence[ArrayLike] | None = None,
     jitter_known: bool = False,
 ) -> TagModel:
     """Learn how tags and minima of one hand lie about boundaries, from several recordings.
 
     recordings: (intervals_s, minima_s, prominence) of each, as `refine_posterior` has them.
-    model: where to start; what is not learnt stays (see `TagModel`), the jitter too where it is
-    known, as from two annotators (`jitter_between`).
+    acts: (N,) of each recording, as there. model: where to start; what is not learnt stays (see
+    `TagModel`), the jitter too where it is known, as from two annotators (`jitter_between`).
     """
     sets = []
-    for intervals, minima_s, prominence in recordings:
+    for number, (intervals, minima_s, prominence) in enumerate(recordings):
         tags, minima, depth = _checked(intervals, minima_s, prominence)
-        forward = tags[tags[:, 1] > tags[:, 0]]
-        if len(forward):
-            sets.append(Tagged(np.unique(forward), minima, depth))
+        forward = np.repeat((tags[:, 1] > tags[:, 0])[:, None], 2, axis=1)
+        if forward.any():
+            acting = None if acts is None else acts[number]
+            times, edge, idle, _ = _boundaries(tags, forward, acting)
+            sets.append(Tagged(times, edge, idle, minima, depth))
     return learnt(sets, TagModel() if model is None else model, jitter_known=jitter_known)
 
 
@@ -171,7 +177,7 @@ def _checked(
     intervals_s: ArrayLike, minima_s: ArrayLike, prominence: ArrayLike | None
 ) -> tuple[Floats, Floats, NDArray[np.int64]]:
     """Return tags (N, 2), NaN where masked, minima in order and their classes of depth."""
-    given: Floats = np.ma.filled(np.ma.asarray(intervals_s, dtype=float), np.nan)
+    given: Floats = unmasked(intervals_s)
     tags = given.reshape(-1, 2)
     minima = np.asarray(minima_s, dtype=float).ravel()
     depth = np.zeros(len(minima)) if prominence is None else np.asarray(prominence, dtype=float)
@@ -184,6 +190,23 @@ def _checked(
     minima, depth = minima[order], depth[order]
     cuts = np.quantile(depth, np.arange(1, DEPTHS) / DEPTHS) if len(depth) else np.empty(0)
     return tags, minima, np.searchsorted(cuts, depth)
+
+
+def _boundaries(
+    tags: Floats, usable: NDArray[np.bool_], acts: ArrayLike | None
+) -> tuple[Floats, Floats, Floats, NDArray[np.int64]]:
+    """Return times in order; 0 for a start to 1 for an end; 1 for an idle hand; which of all.
+
+    Where two signs share an instant, the edge is between, and the hand acts if in either.
+    """
+    moving = np.ones(len(tags), dtype=bool) if acts is None else np.asarray(acts, dtype=bool)
+    if moving.shape != (len(tags),):
+        raise _error(f"acts of shape {moving.shape}", f"({len(tags)},), one a sign")
+    times, of = np.unique(tags[usable], return_inverse=True)
+    ends = np.broadcast_to([0.0, 1.0], tags.shape)[usable]
+    active = np.repeat(moving[:, None], 2, axis=1)[usable]
+    idle = np.bincount(of, active) == 0
+    return times, np.bincount(of, ends) / np.bincount(of), idle.astype(float), of
 
 
 def _notes(tags: Floats, minima: int) -> NDArray[np.object_]:

@@ -8,11 +8,12 @@ from functools import partial
 import numpy as np
 import pandas as pd
 import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signkin.annotation import Interval
 from signkin.errors import SignkinError
 from signkin.joints import HANDS
+from signkin.masked import unmasked
 
 EDGES = ("start", "end")
 
@@ -71,7 +72,7 @@ def _checked(
     intervals_s: NDArray[np.float64], minima_s: NDArray[np.float64], window_s: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return tags (N, 2), NaN where masked, and the minima in order."""
-    tags, minima = _unmasked(intervals_s).reshape(-1, 2), _unmasked(minima_s).ravel()
+    tags, minima = unmasked(intervals_s).reshape(-1, 2), unmasked(minima_s).ravel()
     lost = int((~np.isfinite(minima)).sum())
     if lost:
         raise SignkinError(
@@ -85,10 +86,6 @@ def _checked(
             f"the window is {window_s:g} s", place="refinement", expected="0 or more"
         )
     return tags, np.unique(minima)
-
-
-def _unmasked(values: ArrayLike) -> NDArray[np.float64]:
-    return np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan), dtype=float)
 
 
 def _assign(

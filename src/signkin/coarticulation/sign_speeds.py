@@ -33,14 +33,33 @@ def sign_speeds(
     positions: (F, J, 3), orientations: (F, J, 4) or None, both low-passed (noise adds to a path
     and so to a speed). Joints and frames with gaps are left out of the mean.
     """
-    linear = np.linalg.norm(np.diff(positions, axis=0), axis=2) * recording.rate_hz
+    return mean_speeds(step_speeds(positions, orientations, recording.rate_hz), signs, recording)
+
+
+def step_speeds(
+    positions: NDArray[np.float64], orientations: NDArray[np.float64] | None, rate_hz: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return linear and angular speeds from each frame to the next, (F - 1, J) each.
+
+    Without orientations the angular ones are (F - 1, 1), NaN.
+    """
+    linear = np.linalg.norm(np.diff(positions, axis=0), axis=2) * rate_hz
     angular = np.full((len(positions) - 1, 1), np.nan)
     if orientations is not None:
-        angular = step_angles(orientations) * recording.rate_hz
+        angular = step_angles(orientations) * rate_hz
+    return linear, angular
+
+
+def mean_speeds(
+    speeds: tuple[NDArray[np.float64], NDArray[np.float64]],
+    signs: Sequence[Interval],
+    recording: Recording,
+) -> NDArray[np.float64]:
+    """Return the means of `step_speeds` within each sign, as `sign_speeds` does."""
     out = np.full((len(signs), 2), np.nan)
     for i, sign in enumerate(signs):
         first, last = recording.frame_at(sign.start_s), recording.frame_at(sign.end_s)
-        for k, steps in enumerate((linear, angular)):
+        for k, steps in enumerate(speeds):
             piece = steps[first:last]
             if np.isfinite(piece).any():
                 out[i, k] = np.nanmean(piece)

@@ -11,6 +11,7 @@ import pandas as pd
 
 from signkin.errors import SignkinError
 from signkin.explorer import curves, events
+from signkin.explorer.densities import series_densities
 from signkin.explorer.skeleton import skeleton
 from signkin.explorer.sources import Sources
 from signkin.explorer.syntheses import syntheses
@@ -88,15 +89,20 @@ def _skeleton(recording: Recording, room: int) -> Mapping[str, Any]:
 
 
 def _densities(sources: Sources, recording: Recording, rows: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return the boundary densities of a recording of one sign, in the recording's time."""
+    """Return the boundary densities of a recording, in its own time.
+
+    rows: its posteriors, of a recording of one sign.
+    """
     if not len(rows):
-        return []
+        hands = list(sources.of("wrist_posteriors", recording.name)["hand"])
+        return series_densities(sources.corpus, recording, hands, sources.settings.densities)
     movement = movement_of(recording, sources.settings.cut)
     start = movement.active.start / recording.rate_hz
     found = curves.single_sign_densities(rows)
     for one in found:
         one["first"] = float(f"{one['first'] + start:.9g}")
-        one["boundaries"] = [round(time + start, 4) for time in one["boundaries"]]
+        if one["times"]:
+            one["times"][0] += round(1000 * start)
     return found
 
 
@@ -167,6 +173,8 @@ def _missing(sources: Sources, recording: Recording, data: Mapping[str, Any]) ->
         out.append("No transition of this recording was synthesised.")
     if not data["densities"] and not data["boundaries"]:
         out.append("No boundaries by binning for this recording.")
+    elif len({one["order"] for one in data["densities"]}) == 1:
+        out.append("The density of boundaries is of one order, for the length of the recording.")
     body = data["skeleton"]
     if body["flat"]:
         out.append("Flat (2-D) recording: seen from in front only.")

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from signkin.explorer.densities import in_ms
 from signkin.explorer.packing import packed
 from signkin.joints import HANDS
 
@@ -42,7 +43,8 @@ def single_sign_densities(posteriors: pd.DataFrame) -> list[dict[str, Any]]:
     """Return the posterior of boundaries of a recording of one sign, by order.
 
     posteriors: its rows of posteriors.parquet, of the recorded trajectory. Values stand between
-    two bins, where a segment may end; times run from the start of the movement.
+    two bins, where a segment may end; first runs from the start of the movement, times (in ms, each
+    as its distance from the one before) too.
     """
     recorded = posteriors.sort_values("order")
     out: list[dict[str, Any]] = []
@@ -56,7 +58,7 @@ def single_sign_densities(posteriors: pd.DataFrame) -> list[dict[str, Any]]:
                 "probability": float(f"{row.order_probability:.4g}"),
                 "first": (0.5 + float(row.sample_at)) * bin_s,
                 "bin": bin_s,
-                "boundaries": [round(float(time), 4) for time in row.boundaries_s],
+                "times": in_ms(row.boundaries_s),
                 "values": packed(values.reshape(-1, 1), DENSITY_STEP),
             }
         )
@@ -72,12 +74,11 @@ def series_boundaries(boundaries: pd.DataFrame, posteriors: pd.DataFrame) -> lis
     out: list[dict[str, Any]] = []
     for row in posteriors.itertuples():
         mine = boundaries[boundaries["hand"] == row.hand].sort_values("boundary_s")
-        whole = np.rint(1000 * mine["boundary_s"].to_numpy(dtype=float))
         out.append(
             {
                 "hand": str(row.hand),
                 "order": int(row.order),
-                "times": np.diff(whole, prepend=0).astype(int).tolist(),
+                "times": in_ms(mine["boundary_s"]),
                 "values": np.rint(100 * mine["probability"]).astype(int).tolist(),
             }
         )

@@ -11,6 +11,7 @@ import pandas as pd
 
 from signkin import tables
 from signkin.corpus import Corpus
+from signkin.explorer.densities import DensitySettings
 from signkin.io.store import recording_names
 from signkin.settings import Settings
 from signkin.studies.endres2013.settings import CutSettings
@@ -30,6 +31,7 @@ class ExplorerSettings:
     most_recordings: int | None
     synthesis: SynthesisSettings
     cut: CutSettings
+    densities: DensitySettings
 
     @classmethod
     def of(cls, settings: Settings) -> ExplorerSettings:
@@ -38,6 +40,7 @@ class ExplorerSettings:
             settings.report.explorer_recordings,
             SynthesisSettings.of(settings),
             CutSettings.of(settings),
+            DensitySettings.of(settings),
         )
 
 

@@ -166,8 +166,11 @@ def plot_explained(points: pd.DataFrame, *, ax: Axes) -> Axes:
     return ax
 
 
-def plot_ratio(points: pd.DataFrame, *, ax: Axes) -> Axes:
-    """Draw hits for each false positive a second over orders (Fig. 6, bottom)."""
+def plot_ratio(points: pd.DataFrame, *, ax: Axes, chance: pd.DataFrame | None = None) -> Axes:
+    """Draw hits for each false positive a second over orders (Fig. 6, bottom).
+
+    chance: points of what chance gives, a line a series.
+    """
     names = list(dict.fromkeys(points["series"]))
     for i, name in enumerate(names):
         rows = points[points["series"] == name]
@@ -177,11 +180,29 @@ def plot_ratio(points: pd.DataFrame, *, ax: Axes) -> Axes:
             marker=SERIES_MARKERS[i % len(SERIES_MARKERS)], ms=4, lw=1.0, capsize=2,
             color=SERIES_COLOURS[i % len(SERIES_COLOURS)], label=name,
         )  # fmt: skip
+    kinds = {} if chance is None else dict(tuple(chance.groupby("series", sort=False)))
+    for (name, rows), dashes in zip(kinds.items(), ("--", ":"), strict=False):
+        ax.plot(rows["x"], rows["y"], color="0.35", ls=dashes, lw=1.1, label=f"chance: {name}")
     ax.set(xlabel="polynomial order S", ylabel="hit rate / false positives a second (s)")
     ax.set_xticks(sorted(points["x"].unique()))
     ax.set_ylim(bottom=0)
-    if len(names) > 1:
+    if len(names) + len(kinds) > 1:
         ax.legend(loc="best")
+    return ax
+
+
+def plot_over_chance(points: pd.DataFrame, *, ax: Axes) -> Axes:
+    """Draw hit rates less those of chance over orders, a line a kind of chance."""
+    for i, (name, rows) in enumerate(points.groupby("series", sort=False)):
+        ax.errorbar(
+            rows["x"] + 0.06 * (i - 0.5), rows["y"], yerr=rows["y_error"].fillna(0.0),
+            marker=SERIES_MARKERS[i % len(SERIES_MARKERS)], ms=4, lw=1.0, capsize=2,
+            color=("0.35", SERIES_COLOURS[0])[i % 2], label=str(name),
+        )  # fmt: skip
+    ax.axhline(0, color="0.6", lw=0.8)
+    ax.set(xlabel="polynomial order S", ylabel="hit rate less chance")
+    ax.set_xticks(sorted(points["x"].unique()))
+    ax.legend(loc="best")
     return ax
 
 

@@ -19,11 +19,11 @@ def plot_exponents(
     """Draw medians, quartiles and 90 % of the exponents of segments, one place an estimator.
 
     laws: table `recorded_laws`. names: estimator -> its column. noise: rows of `law_pitfalls`
-    of noise alone, whose range over durations is a grey bar.
+    of noise alone, whose range over durations is a grey bar; none where it has no exponent.
     """
     for place, (name, column) in enumerate(names.items()):
         found = laws[column].dropna()
-        of_noise = noise.loc[noise["estimator"] == name, "found"]
+        of_noise = noise.loc[noise["estimator"] == name, "found"].dropna()
         if len(of_noise):
             low, high = of_noise.min(), of_noise.max()
             ax.fill_between([place - 0.35, place + 0.35], low - 0.01, high + 0.01, color=PALE,

@@ -33,6 +33,7 @@ SETTING_COLOURS = (RIGHT, MANUAL, ACCENT, LEFT, VIOLET, TEAL, NEUTRAL)
 STYLE = Path(__file__).with_name("paper.mplstyle")
 PLACES = 6  # decimals of a place in a figure
 WIDTH_IN = 6.9  # a text column of 175 mm
+NO_LAYOUT = {"figure.constrained_layout.use": False, "figure.autolayout": False}
 SPEED_UNITS = {"m": "m/s", "px": "px/s"}
 
 
@@ -46,8 +47,9 @@ def paper_style() -> Iterator[None]:
 def save(figure: Figure, svg: str | Path, pdf: str | Path) -> None:
     """Write a figure as SVG and PDF, without the date that would change every time."""
     settle(figure)
-    figure.savefig(svg, metadata={"Date": None, "Creator": "signkin"})
-    figure.savefig(pdf, metadata={"CreationDate": None, "Creator": "signkin", "Producer": None})
+    with mpl.rc_context(NO_LAYOUT):  # saving sets the layout engine that there was, or the style's
+        figure.savefig(svg, metadata={"Date": None, "Creator": "signkin"})
+        figure.savefig(pdf, metadata={"CreationDate": None, "Creator": "signkin", "Producer": None})
     plt.close(figure)
 
 
@@ -55,10 +57,14 @@ def settle(figure: Figure) -> None:
     """Lay a figure out once, and round where its axes came to lie.
 
     The constrained layout's solver adds up in an order that goes by places in memory: last
-    digits differ from run to run, and SVG identifiers are made of them.
+    digits differ from run to run, and SVG identifiers are made of them. Nothing is drawn for it,
+    and no engine is left: with one, even if it does nothing, matplotlib draws twice a file.
     """
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+    with mpl.rc_context(NO_LAYOUT):
+        figure.set_layout_engine(None)
     for ax in figure.axes:
         for which in ("original", "active"):
             place = ax.get_position(original=which == "original")

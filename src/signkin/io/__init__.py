@@ -3,6 +3,8 @@
 from signkin.io import (
     bvh,
     c3d,
+    c3d_events,
+    deeplabcut,
     eaf,
     elan_tab,
     exports,
@@ -31,6 +33,8 @@ __all__ = [
     "annotation_formats",
     "bvh",
     "c3d",
+    "c3d_events",
+    "deeplabcut",
     "eaf",
     "elan_tab",
     "exports",

@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
 from signkin.io.bvh_text import Hierarchy, parse, parse_bvh
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.chosen import pick
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import quoted
 
 if TYPE_CHECKING:

@@ -225,6 +225,8 @@ def _parse_motion_header(lines: list[str], line: int) -> _MotionHeader:
         name = " ".join(key.lower().split())
         if name not in ("frames", "frame time"):
             break
+        if name in found:
+            raise _broken(place + 1, f"{quoted(text)}, a second time", "Frames and Frame Time once")
         found[name] = (value.strip(), place + 1)
         if len(found) == 2:
             frames, at = found["frames"]

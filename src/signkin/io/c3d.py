@@ -10,17 +10,18 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from signkin.errors import SignkinError, listed
 from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
 from signkin.io.registry import SourceMotion, motion_reader
-from signkin.io.text import content_of, encoding_of
+from signkin.io.text import content_of, encoding_of, quoted
 
+T = TypeVar("T")
 _NO_POSITIONS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 
 
@@ -31,36 +32,31 @@ def read_c3d(
     joints: Mapping[str, str] | None = None,
     part: str | None = None,
     incomplete: bool = False,
+    header: str = "check",
     encoding: str = "utf-8",
 ) -> SourceMotion:
     """Read the points of a C3D file: labels by name, of the subject `part` where there are several.
 
-    incomplete: read a file of fewer frames than its header promises. encoding: of the labels.
+    incomplete: read a file of fewer frames than its header promises. header: `check` (its rate and
+    numbers must agree with the parameters) or `ignore`. encoding: of the labels.
     """
-    try:
-        import c3d
-    except ImportError:
+    size = path.stat().st_size
+
+    def read(reader: Any) -> tuple[list[str], _About, list[Any], int, int]:
+        labels, about = _about(reader, encoding_of(b"", encoding))
+        _check_size(reader, size, incomplete)
+        frames = [points for _, points, _ in reader.read_frames(check_nan=False)]
+        return labels, about, frames, int(reader.first_frame), _promised(reader)
+
+    labels, about, frames, first, promised = opened(path, header, read)
+    if len(frames) > promised and not incomplete:
         raise SignkinError(
-            "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
-        ) from None
-    content = content_of(path)
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            reader = c3d.Reader(io.BytesIO(content))
-            labels, about = _about(reader, encoding_of(b"", encoding))
-            _check_size(reader, len(content), incomplete)
-            frames = [points for _, points, _ in reader.read_frames()]
-            first = int(reader.first_frame)
-            promised = _promised(reader)
-    except SignkinError:
-        raise
-    except Exception as error:  # the library lets struct, index and assertion errors through
-        raise SignkinError(
-            f"not readable as a C3D file ({type(error).__name__}: {error})",
-            place=f"{len(content)} bytes",
-            expected="a whole file; this one may be damaged",
-        ) from error
+            f"{len(frames)} frames by the header's last frame, {promised} by POINT:FRAMES",
+            place="header",
+            expected="one number of frames",
+            todo="Declare options: {incomplete: true} to read the smaller number.",
+        )
+    frames = frames[:promised]
     if not frames or not labels:
         raise SignkinError("no points in the file", expected="points, over 2 frames or more")
     notes: list[str] = []
@@ -78,7 +74,8 @@ def read_c3d(
         kept = [k for k, i in enumerate(chosen) if labels[i] not in about.no_positions]
         names, chosen = tuple(names[k] for k in kept), [chosen[k] for k in kept]
         notes.append(f"{len(others)} points that are angles, forces or the like are left out")
-    points = np.array(frames, dtype=float)[:, chosen]
+    with np.errstate(invalid="ignore"):  # a damaged file may hold signalling NaNs
+        points = np.array(frames, dtype=float)[:, chosen]
     positions = np.ascontiguousarray(points[..., :3])
     positions[points[..., 3] < 0] = np.nan
     notes += zeros_to_gaps(positions)
@@ -94,34 +91,87 @@ def read_c3d(
     )
 
 
+def opened(path: Path, header: str, read: Callable[[Any], T]) -> T:
+    """Return what `read` takes from the library's reader; whatever the library says is a sentence.
+
+    header: see `read_c3d`.
+    """
+    try:
+        import c3d
+    except ImportError:
+        raise SignkinError(
+            "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
+        ) from None
+    content = content_of(path)
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return read(_reader(c3d, content, header))
+    except SignkinError:
+        raise
+    except Exception as error:  # the library lets struct, index and assertion errors through
+        raise SignkinError(
+            f"not readable as a C3D file ({type(error).__name__}: {error})",
+            place=f"{len(content)} bytes",
+            expected="a whole file; this one may be damaged",
+        ) from error
+
+
+def _reader(c3d: Any, content: bytes, header: str) -> Any:
+    """Return the library's reader; where header and parameters differ, say in what."""
+    if header not in ("check", "ignore"):
+        raise SignkinError(
+            f"header is {quoted(header)}", place="options, header", expected="check or ignore"
+        )
+
+    class Reader(c3d.Reader):  # type: ignore[misc,name-defined,unused-ignore]
+        """A reader that ends with a sentence, or takes the parameters' word."""
+
+        def _check_metadata(self) -> None:
+            if header == "ignore":
+                return
+            try:
+                super()._check_metadata()
+            except AssertionError as error:
+                raise SignkinError(
+                    str(error).replace(" header != ", " in the header, "),
+                    place="header",
+                    expected="what the parameters say",
+                    todo="Declare options: {header: ignore} where the parameters are right.",
+                ) from error
+
+    return Reader(io.BytesIO(content))
+
+
 class _About:
     """Rate and unit of the points, and the labels that are no positions."""
 
     def __init__(self, reader: Any, encoding: str) -> None:
         rate = float(reader.point_rate)
         self.rate_hz = float(str(np.float32(rate)))
-        units = _strings(reader, "POINT.UNITS", encoding)
+        units = strings(reader, "POINT.UNITS", encoding)
         self.unit = unit_of(units[0].split()[0]) if units and units[0].split() else None
         self.no_positions = {
             label
             for key in _NO_POSITIONS
-            for label in _strings(reader, f"POINT.{key}", encoding)
+            for label in strings(reader, f"POINT.{key}", encoding)
             if label
         }
 
 
 def _about(reader: Any, encoding: str) -> tuple[list[str], _About]:
-    labels = _strings(reader, "POINT.LABELS", encoding)
+    labels = strings(reader, "POINT.LABELS", encoding)
     more = 2
-    while _strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
-        labels += _strings(reader, f"POINT.LABELS{more}", encoding)
+    while strings(reader, f"POINT.LABELS{more}", encoding):  # a parameter holds 255 labels
+        labels += strings(reader, f"POINT.LABELS{more}", encoding)
         more += 1
     used = int(reader.point_used)
     labels = [*labels, *(f"*{i}" for i in range(len(labels), used))][:used]
     return labels, _About(reader, encoding)
 
 
-def _strings(reader: Any, key: str, encoding: str) -> list[str]:
+def strings(reader: Any, key: str, encoding: str) -> list[str]:
+    """Return the texts of a parameter, none where it is not there."""
     parameter = reader.get(key)
     if parameter is None or not len(parameter.bytes):
         return []

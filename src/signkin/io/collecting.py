@@ -12,6 +12,7 @@ from pathlib import Path
 
 from signkin.annotation import Annotation, Interval, LeftOut, TierWish, tier_key
 from signkin.errors import SignkinError, listed
+from signkin.rows import composed
 
 DIGITS = 9  # of seconds: finer than any clock, coarse enough to hide sums of floats
 WISH_KEYS = ("pattern", "participant")
@@ -136,11 +137,6 @@ def one_line(text: str, most: int = 60) -> str:
     """Return text as a message may quote it: without line ends, cut after `most` letters."""
     flat = " ".join(text.split("\n"))
     return flat if len(flat) <= most else f"{flat[:most]}…"
-
-
-def composed(text: str) -> str:
-    """Return text with each accent and its letter as one, as files of most systems have it."""
-    return unicodedata.normalize("NFC", text)
 
 
 @dataclass

@@ -18,11 +18,12 @@ from urllib.parse import unquote
 
 from signkin.annotation import Annotation, TierWish
 from signkin.errors import SignkinError, listed
-from signkin.io.collecting import Collected, TierName, choose_tiers, composed
+from signkin.io.collecting import Collected, TierName, choose_tiers
 from signkin.io.eaf_write import WHOLE, NewTier, elan_copy, insert_tiers, write_eaf
 from signkin.io.open_slots import fill_open
 from signkin.io.registry import annotation_reader
 from signkin.io.xml_tree import Element, parse
+from signkin.rows import composed
 
 __all__ = ["NewTier", "clock_offset_s", "elan_copy", "insert_tiers", "read_eaf", "write_eaf"]
 
@@ -252,6 +253,12 @@ def _tag(annotation: Element) -> Tag:
         )
     element = inside[0]
     values = element.all("ANNOTATION_VALUE")
+    if len(values) > 1 or any(value.children for value in values):
+        raise SignkinError(
+            f"an annotation with {len(values)} values, or elements inside its text",
+            place=f"line {element.line}",
+            expected="one ANNOTATION_VALUE, of text",
+        )
     value = None if not values else values[0].text
     key = element.get("ANNOTATION_ID") or "without id"
     if element.tag == "REF_ANNOTATION":

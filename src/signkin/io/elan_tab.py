@@ -25,6 +25,7 @@ _SPELLINGS = {
 }
 _FRAMES = re.compile(r"[0-9]+:[0-9]{2}:[0-9]{2}[:;][0-9]+")  # SMPTE, beside another spelling
 _COLUMN = re.compile(r"(?P<what>begin|end|duration)(?: time)?(?: - (?P<how>.+))?", re.IGNORECASE)
+_OFFSET = re.compile(r"offset:\s*([0-9]{1,12})", re.IGNORECASE)
 _HOW = {"msec": "ms", "ss.msec": "s", "hh:mm:ss.ms": "timecode"}
 _TOLERANCE_S = 0.0015  # two spellings may be rounded differently
 EXPECTED = "ELAN's tab-delimited text: tier, participant, begin, end, (duration,) text"
@@ -38,10 +39,16 @@ def read_elan_tab(
     name: str | None = None,
     part: str | None = None,
     encoding: str | None = None,
+    media_offset: str | None = None,
 ) -> Annotation:
-    """Read tiers of an export; None reads every tier."""
+    """Read tiers of an export; None reads every tier.
+
+    media_offset: where a remark tells that a medium starts later, whether ELAN `added` it to the
+    times (a choice in its dialogue) or `not_added`; times count in the medium that it names.
+    """
     # ELAN puts no quotes around cells. Media and their offsets are remarks at the start.
     lines = read_text(path, encoding).split("\n")
+    offset_s = _media_offset(lines, media_offset)
     rows = [
         Row(number, tuple(line.split("\t")))
         for number, line in enumerate(lines, start=1)
@@ -54,10 +61,44 @@ def read_elan_tab(
     chosen = choose_tiers(tiers, list(dict.fromkeys(names)))
     wanted = {tier for those in chosen.values() for tier in those}
     collected = Collected()
+    seen: dict[tuple[float, float, str, str], int] = {}
     for tag, tier in zip(found, names, strict=True):
         if tier.name in wanted:
-            collected.add(tag.start_s, tag.end_s, tag.text, tier.name, f"line {tag.line}")
+            first = seen.setdefault((tag.start_s, tag.end_s, tag.text, tier.name), tag.line)
+            if first != tag.line:
+                collected.leave_out(tier.name, f"line {tag.line}", f"the same as line {first}")
+                continue
+            start, end = tag.start_s + offset_s, tag.end_s + offset_s
+            collected.add(start, end, tag.text, tier.name, f"line {tag.line}")
     return collected.annotation(name or path.stem, tiers, chosen)
+
+
+def _media_offset(lines: Sequence[str], declared: str | None) -> float:
+    """Return what to add to times (s); media that start later than others want a word."""
+    if declared not in (None, "added", "not_added"):
+        raise SignkinError(
+            f"media_offset is {str(declared)[:40]!r}",
+            place="media_offset",
+            expected="added or not_added",
+        )
+    found = [
+        (number, int(match[1]))
+        for number, line in enumerate(lines, start=1)
+        if re.match(r'"?#', line) and (match := _OFFSET.search(line))
+    ]
+    offsets = {ms for _, ms in found}
+    if not offsets - {0}:
+        return 0.0
+    if declared is None or (declared == "not_added" and len(offsets) > 1):
+        line, ms = next((n, ms) for n, ms in found if ms)
+        raise SignkinError(
+            f"a medium with an offset of {ms} ms",
+            place=f"line {line}",
+            expected="one clock, and whether ELAN added it to the times",
+            todo="Declare options: {media_offset: added} or not_added"
+            + (", and clock_offset_s in recordings.csv." if len(offsets) > 1 else "."),
+        )
+    return offsets.pop() / 1000 if declared == "not_added" else 0.0
 
 
 @dataclass(frozen=True)

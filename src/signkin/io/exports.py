@@ -7,6 +7,7 @@ Points at exactly 0, 0, 0 and empty cells are gaps.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
@@ -18,6 +19,8 @@ from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import Layout, rows_of
 from signkin.io.text import number, quoted, text_lines
 
+# Keys of Qualisys that are read; others, such as EVENT, may come again.
+_USED = ("NO_OF_FRAMES", "NO_OF_MARKERS", "FREQUENCY", "DATA_INCLUDED", "MARKER_NAMES")
 # Further down no maker's header goes.
 _LONGEST_HEADER = 60
 
@@ -47,7 +50,11 @@ def read_qualisys_tsv(
             break
         if line > _LONGEST_HEADER:
             raise _no_header("MARKER_NAMES and the frames", line)
-        told[key.upper()] = [cell.strip() for cell in row[1:]]
+        cells = [cell.strip() for cell in row[1:]]
+        if told.setdefault(key.upper(), cells) != cells and key.upper() in _USED:
+            raise SignkinError(
+                f"{key} stands twice, with two values", place=f"line {line}", expected="one value"
+            )
     else:
         raise _no_header("MARKER_NAMES and the frames", 1)
     if (told.get("DATA_INCLUDED") or ["3D"])[0].upper() != "3D":
@@ -131,9 +138,11 @@ def read_vicon_csv(
         raise _no_header("a section Trajectories: rate, markers, axes, units", 1)
     rate_line, rates = head[1]
     rate = number(rates[0].replace(",", "."))
-    if rate is None or not rate > 0:
+    if rate is None or not rate > 0 or any(rates[1:]):
         raise SignkinError(
-            f"the rate is {quoted(rates[0])}", place=f"line {rate_line}", expected="a number of Hz"
+            f"the rate is {listed([rates[0], *filter(None, rates[1:])])!r}",
+            place=f"line {rate_line}",
+            expected="one number of Hz",
         )
     labels, columns = _triples(head[2][1], head[3][1], head[3][0])
     units = {head[4][1][i] for place in columns for i in place if i < len(head[4][1])}
@@ -144,8 +153,13 @@ def read_vicon_csv(
     width = max(len(head[3][1]), *(place[-1] + 1 for place in columns))
     while width > columns[-1][-1] + 1 and not head[3][1][width - 1]:
         width -= 1
+    sub_frames = head[3][1][1:2] == ["Sub Frame"]
     points = read_markers(
-        _section(rows), _marker_head(labels, columns, width, rate, units), layout, joints, part
+        _section(rows, sub_frames),
+        _marker_head(labels, columns, width, rate, units),
+        layout,
+        joints,
+        part,
     )
     return source_motion(points)
 
@@ -160,13 +174,26 @@ def _marker_head(
     )
 
 
-def _section(rows: Iterator[tuple[int, list[str]]]) -> Iterator[tuple[int, list[str]]]:
-    """Yield rows up to the title of the next section."""
+def _section(
+    rows: Iterator[tuple[int, list[str]]], sub_frames: bool
+) -> Iterator[tuple[int, list[str]]]:
+    """Yield rows up to the title of the next section; trajectories again are an error."""
     for line, row in rows:
         title = row[0].strip()
         if title and title[0].isalpha() and not any(cell.strip() for cell in row[1:]):
-            return
+            break
+        if sub_frames and len(row) > 1 and number(row[1].strip()) not in (None, 0):
+            raise SignkinError(
+                f"sub frame {quoted(row[1])}", place=f"line {line}", expected="0: whole frames"
+            )
         yield line, row
+    else:
+        return
+    for later, cells in itertools.chain([(line, row)], rows):
+        if cells[0].strip().lower() == "trajectories" and not any(c.strip() for c in cells[1:]):
+            raise SignkinError(
+                "another section Trajectories", place=f"line {later}", expected="one recording"
+            )
 
 
 def _triples(
@@ -179,6 +206,10 @@ def _triples(
         if name and found == ["X", "Y", "Z"]:
             labels.append(name)
             columns.append((i, i + 1, i + 2))
+        elif name and sorted(found) == ["X", "Y", "Z"]:
+            raise SignkinError(
+                f"{quoted(name)} over {listed(found)}", place=f"line {line}", expected="X, Y, Z"
+            )
     if not labels:
         raise SignkinError(
             f"the axes {listed(axes[:6])}", place=f"line {line}", expected="X, Y, Z under a marker"
@@ -222,6 +253,13 @@ def read_motive_csv(
             raise _no_header("the row Frame, Time (Seconds), X, Y, Z", line)
     else:
         raise _no_header("the row Frame, Time (Seconds), X, Y, Z", 1)
+    if told.get("Coordinate Space", "Global").lower() != "global":
+        raise SignkinError(
+            f"Coordinate Space {quoted(told['Coordinate Space'])}",
+            place="line 1",
+            expected="Global: bones in local space are where their parents are",
+            todo="Export the take again in global coordinates.",
+        )
     by_title = {cells[1]: cells for cells in above if len(cells) > 1 and cells[1]}
     measured = next((cells for cells in reversed(above) if "Position" in cells), None)
     if "Name" not in by_title or measured is None:

@@ -10,7 +10,9 @@ from signkin.annotation_rules import labels_to_intervals
 from signkin.errors import SignkinError
 from signkin.io.collecting import Collected, TierName, choose_tiers
 from signkin.io.registry import annotation_reader
+from signkin.io.telling import FRAMES, TIMES, check_undeclared, ignored
 from signkin.io.text_rows import TextTable, read_table, read_text
+from signkin.rows import plain_name
 
 
 @annotation_reader("frame_labels", suffixes=())
@@ -29,6 +31,7 @@ def read_frame_labels(
     blank: tuple[str, ...] | list[str] = ("",),
     separator: str | None = None,
     encoding: str | None = None,
+    ignore: tuple[str, ...] | list[str] | None = None,
 ) -> Annotation:
     """Read labels of frames; frame i lasts from i / rate to (i + 1) / rate.
 
@@ -36,6 +39,7 @@ def read_frame_labels(
     header: a table whose columns are tiers; false: a plain list, a label a line.
     frame_column: numbers of the frames, from `first_frame`, which must rise by 1.
     blank: labels that mean no sign, such as `O` or `rest`; an empty one is always one.
+    ignore: columns that are no tiers.
     """
     rate = frame_rate_hz if frame_rate_hz is not None else rate_hz
     if rate is None:
@@ -46,16 +50,26 @@ def read_frame_labels(
         columns = [c for c in (recording_column, frame_column) if c is not None]
         table = read_table(path, columns, separator, encoding, keep_blank=True)
         table = table.part(recording_column, part)
+        check_undeclared(table, [*columns, *ignored(ignore)])
+        _check_counters(table, [*columns, *ignored(ignore), *_names(tiers)])
         before = _frames(table, frame_column, first_frame)
         labels = {
             column: [row.cells[i] for row in table.rows]
             for i, column in enumerate(table.columns)
-            if column not in columns
+            if column not in (*columns, *ignored(ignore))
         }
-        if len(labels) != len(table.columns) - len(columns):
+        passed_over = {*columns, *ignored(ignore)} & set(table.columns)
+        if len(labels) != len(table.columns) - len(passed_over):
             raise SignkinError("two columns of one name", place="line 1", expected="each once")
     else:
         lines = read_text(path, encoding).removesuffix("\n").split("\n")
+        columned = next((i for i, line in enumerate(lines, start=1) if "\t" in line), None)
+        if columned is not None:
+            raise SignkinError(
+                f"found {lines[columned - 1][:40]!r}",
+                place=f"line {columned}",
+                expected="a label a line; a table has `header: true`",
+            )
         before = 0
         labels = {tier_key(tiers[0]) if tiers else "sign": lines}
     chosen = choose_tiers(tiers, [TierName(column) for column in labels])
@@ -67,6 +81,23 @@ def read_frame_labels(
             start, end = i.start_s + before / rate, i.end_s + before / rate
             collected.add(start, end, i.label, tier, f"frame {round(start * rate) + first_frame}")
     return collected.annotation(name or part or path.stem, tiers, chosen)
+
+
+def _names(tiers: tuple[TierWish, ...] | None) -> list[str]:
+    return [tier for tier in tiers or () if isinstance(tier, str)]
+
+
+def _check_counters(table: TextTable, declared: list[str]) -> None:
+    """Refuse columns of frames or times that nobody declared: they are no labels."""
+    for column in table.columns:
+        name = plain_name(column)
+        if column not in declared and (name in FRAMES or name in TIMES):
+            raise SignkinError(
+                f"the column {column!r} is not declared",
+                place="line 1",
+                expected="columns of labels",
+                todo=f"Declare options: {{frame_column: {column}}}, or {{ignore: [{column}]}}.",
+            )
 
 
 def _frames(table: TextTable, column: str | None, first_frame: int) -> int:

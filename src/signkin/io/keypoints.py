@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.chosen import pick
 from signkin.io.landmarks import landmark_names
-from signkin.io.points import Points, source_motion
+from signkin.io.points import Points, check_confidence, source_motion
 from signkin.io.pose import which_person
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import LARGEST_BYTES, content_of, quoted
 
 
@@ -33,7 +34,7 @@ def read_npy(
     part: str | None = None,
     landmarks: Any = None,
     key: str | None = None,
-    confidence: bool = False,
+    confidence: bool | None = None,
     confidence_threshold: float = 0.0,
     missing: float | None = None,
     image_size: Sequence[float] | None = None,
@@ -41,6 +42,7 @@ def read_npy(
     """Read key points; the unit is to be declared, or image_size for coordinates from 0 to 1.
 
     landmarks: a list of `landmarks.LISTS` by name, or the names; without, they are numbers from 0.
+    confidence: whether the last coordinate is one; where it looks like it, it must be said.
     key: which array of an .npz file with several. missing: value of a point that was not seen.
     """
     values = _array(path, key)
@@ -48,6 +50,8 @@ def read_npy(
         there = np.isfinite(values).any(axis=(0, 2, 3)) & (values != 0).any(axis=(0, 2, 3))
         values = values[:, which_person(there, part)]
     dimensions = values.shape[2] - bool(confidence) if values.ndim == 3 else 0
+    if confidence is None and dimensions == 3:
+        _check_depth(values)
     if dimensions not in (2, 3):
         raise SignkinError(
             f"an array of shape {values.shape}",
@@ -58,6 +62,8 @@ def read_npy(
     canonical, chosen = pick(names, None if joints is None else _as_text(joints))
     positions = np.zeros((len(values), len(chosen), 3))
     positions[..., :dimensions] = values[:, chosen, :dimensions]
+    if confidence:
+        check_confidence(values[:, chosen, -1], canonical)
     trust = {c: values[:, i, -1] for c, i in zip(canonical, chosen, strict=True)}
     if missing is not None and (isinstance(missing, bool) or not isinstance(missing, int | float)):
         raise SignkinError(
@@ -69,11 +75,27 @@ def read_npy(
             positions=positions,
             flat=(dimensions == 2,) * len(canonical),
             confidence=trust if confidence else {},
+            # Trackers of video give images their two dimensions.
+            unit="px" if dimensions == 2 and isinstance(landmarks, str) else None,
         ),
-        missing=() if missing is None else (float(missing),),
+        missing=None if missing is None else (float(missing),),
         confidence_threshold=confidence_threshold,
         image_size=image_size,
     )
+
+
+def _check_depth(values: NDArray[np.float64]) -> None:
+    """Refuse a third coordinate that looks like confidence: 0 to 1 beside pixels."""
+    third = values[..., 2][np.isfinite(values[..., 2])]
+    flat = np.abs(values[..., :2][np.isfinite(values[..., :2])])
+    if third.size and flat.size and flat.max() > 20 and third.min() >= 0 and 0 < third.max() <= 1:
+        raise SignkinError(
+            f"the third coordinate is {third.min():.3g} to {third.max():.3g} beside others up to "
+            f"{flat.max():.4g}",
+            place="array",
+            expected="coordinates, or confidence that is declared",
+            todo="Declare options: {confidence: true}, or false where it is a coordinate.",
+        )
 
 
 def _as_text(joints: Mapping[str, Any]) -> dict[str, str]:

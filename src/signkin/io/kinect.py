@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
 from signkin.io.archive import read_numbers
-from signkin.io.registry import FURTHEST, SourceMotion, motion_reader, pick
+from signkin.io.chosen import FURTHEST, pick
+from signkin.io.registry import SourceMotion, motion_reader
 
 JOINTS = (
     "head", "neck", "left_shoulder", "right_shoulder", "left_elbow", "right_elbow",
@@ -34,6 +35,10 @@ JOINTS_V2 = (
     "right_foot", "spine_shoulder", "left_hand_tip", "left_thumb", "right_hand_tip",
     "right_thumb",
 )  # fmt: skip
+
+
+# The sensor sees bodies up to 4.5 m away; beyond this, the numbers are no metres.
+FURTHEST_M = 50.0
 
 
 @motion_reader("kinect_v2")
@@ -77,6 +82,13 @@ def _read(
 ) -> SourceMotion:
     table = read_numbers(path, part, 3 * len(order))
     positions = table.reshape(len(table), len(order), 3)
+    there = np.abs(positions[(positions != 0) & np.isfinite(positions)])
+    if there.size and (far := float(np.median(there))) > FURTHEST_M:
+        raise SignkinError(
+            f"coordinates of {far:.4g} (the median), which no sensor sees in metres",
+            expected="metres",
+            todo="Read it as csv with header_rows: 0 and the unit declared.",
+        )
     if face_sensor:
         positions = _facing(positions, order)
     names, chosen = pick(order, joints)

@@ -7,23 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.chosen import pick
 from signkin.io.points import Points
-from signkin.io.registry import METRES_PER, pick
+from signkin.io.registry import METRES_PER
 from signkin.io.table import (
     FIRST_LINE,
     Layout,
-    check_length,
     column_numbers,
     finest_half_digit,
     numbers_of,
 )
 from signkin.io.text import quoted
+from signkin.rows import check_length, composed
 
 UNITS = {
     **{unit: unit for unit in METRES_PER},
@@ -73,6 +75,8 @@ def pick_markers(
     A marker `Anna:RWRI` is found as that, and as `RWRI` where one subject has it; `subject`
     (the recording's part) keeps the markers of one. Without a map, all that have a label.
     """
+    labels = [composed(label) for label in labels]
+    joints = None if joints is None else {j: _text(name) for j, name in joints.items()}
     kept = list(range(len(labels)))
     prefixes = list(dict.fromkeys(label.rpartition(":")[0] for label in labels if ":" in label))
     if subject in prefixes:  # otherwise the part names something else, such as a row of the tags
@@ -99,6 +103,10 @@ def pick_markers(
             )
     names, indices = pick(tuple(full), resolved)
     return names, [kept[i] for i in indices]
+
+
+def _text(name: Any) -> Any:
+    return composed(name) if isinstance(name, str) else name
 
 
 def zeros_to_gaps(positions: NDArray[np.float64]) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,10 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.io.chosen import pick
 from signkin.io.landmarks import OPENPOSE_BODY_25, OPENPOSE_COCO, OPENPOSE_HAND, OPENPOSE_MPI
-from signkin.io.points import Points, refuse_shares, source_motion
+from signkin.io.points import Points, check_confidence, source_motion
 from signkin.io.pose import which_person
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import quoted, text_lines
 
 _FRAME = re.compile(r"(?:^|.*_)([0-9]{1,15})_keypoints\.json", re.DOTALL)
@@ -45,6 +47,8 @@ def read_openpose_json(
     if not path.is_dir():
         raise SignkinError("this is a file", file=path, expected="a folder of *_keypoints.json")
     files = _files(path)
+    first = int(_FRAME.fullmatch(files[0].name)[1])  # type: ignore[index]
+    note = f"the first frame is number {first}; times count from there"
     people = [_people(file) for file in files]
     most = max((len(frame) for frame in people), default=0)
     if not most:
@@ -74,11 +78,10 @@ def read_openpose_json(
             at += width
     table = table[:, indices]
     trust = table[..., 2].copy()
+    check_confidence(trust, canonical)
     positions = table.copy()
     positions[..., 2] = 0.0
     positions[~(trust > 0)] = np.nan
-    if image_size is None:
-        refuse_shares(positions, str(path))
     return source_motion(
         Points(
             joints=canonical,
@@ -86,6 +89,7 @@ def read_openpose_json(
             flat=(True,) * len(canonical),
             confidence={joint: trust[:, j] for j, joint in enumerate(canonical)},
             unit="px",
+            notes=(note,) if first > 1 else (),
         ),
         confidence_threshold=confidence_threshold,
         image_size=image_size,
@@ -94,6 +98,7 @@ def read_openpose_json(
 
 def _files(folder: Path) -> list[Path]:
     numbered: dict[int, Path] = {}
+    video: dict[str, str] = {}
     for file in sorted(folder.iterdir()):
         found = _FRAME.fullmatch(file.name)
         if found is None:
@@ -107,6 +112,14 @@ def _files(folder: Path) -> list[Path]:
                 todo="Give each video a folder of its own.",
             )
         numbered[frame] = file
+        name = file.name[: found.start(1)]
+        if video.setdefault("name", name) != name:
+            raise SignkinError(
+                f"frames of {quoted(video['name'])} and of {quoted(name)}",
+                place=file.name,
+                expected="the frames of one video",
+                todo="Give each video a folder of its own.",
+            )
     if not numbered:
         raise SignkinError(
             "no file *_keypoints.json in this folder", file=folder, expected="one a frame"
@@ -125,7 +138,8 @@ def _files(folder: Path) -> list[Path]:
 def _people(file: Path) -> list[dict[str, NDArray[np.float64]]]:
     """Return the key points, (points, 3), of each person of a frame, by part of the body."""
     try:
-        content: Any = json.loads("\n".join(text_lines(file)))
+        text = "\n".join(text_lines(file))
+        content: Any = json.loads(text, object_pairs_hook=_once)
         people = content["people"]
         return [
             {
@@ -145,6 +159,14 @@ def _people(file: Path) -> list[dict[str, NDArray[np.float64]]]:
         raise SignkinError(
             error.found, place=f"{file.name}, {error.place}", expected=error.expected
         ) from error
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a JSON object; a key that stands twice is an error, not the last one's value."""
+    twice = [key for key, count in Counter(key for key, _ in pairs).items() if count > 1]
+    if twice:
+        raise ValueError(f"{quoted(twice[0])} stands twice")
+    return dict(pairs)
 
 
 def _triples(values: Any) -> NDArray[np.float64]:

@@ -15,6 +15,11 @@ from signkin.io.registry import SourceMotion
 from signkin.io.text import quoted
 from signkin.velocities import integrate
 
+# Numbers by which programs say that nothing was measured.
+SENTINELS = (999.0, 9999.0, 99999.0, 999999.0, 9999999.0)
+MOST_CONFIDENCE = 2.0  # OpenPose's reaches a little above 1
+MOST_SHARE = 2.0  # points outside the image are further than 1, most are not
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Points:
@@ -22,7 +27,8 @@ class Points:
 
     joints: J names; positions: (F, J, 3), NaN where a cell is empty; flat: joints without depth
     (z is 0). confidence: joint -> (F,). times: (F,) in the file's unit, with half a unit of their
-    last printed digit and where they stand. rate_hz, unit: where a header tells them.
+    last printed digit and where they stand. rate_hz, unit: where a header tells them. lines: (F,)
+    of a text file.
     """
 
     joints: tuple[str, ...]
@@ -36,6 +42,7 @@ class Points:
     rate_range: tuple[float, float] | None = None
     unit: str | None = None
     notes: tuple[str, ...] = ()
+    lines: NDArray[np.int64] | None = None
 
 
 def source_motion(
@@ -43,7 +50,7 @@ def source_motion(
     *,
     time_unit: str | None = None,
     resample_hz: float | None = None,
-    missing: Sequence[float] = (),
+    missing: Sequence[float] | None = (),
     confidence_threshold: float = 0.0,
     image_size: Sequence[float] | None = None,
     velocities: str | None = None,
@@ -51,14 +58,19 @@ def source_motion(
     """Return points as motion: what is missing becomes a gap, 0 to 1 becomes pixels.
 
     A header's rate and the times must agree; resample_hz makes an uneven clock even, with a note.
+    missing: values of points that were not seen; None: none was declared, and it is looked for.
     velocities: `integrate`, where the values are velocities in unit/s: also with a note.
     """
     positions = points.positions.copy()
+    odd = _check_sentinels(positions, points) if missing is None else ()
+    missing = missing or ()
     _blank(positions, points, missing, confidence_threshold)
     unit = points.unit
     if image_size is not None:
+        factors = _pixels(image_size)
+        _check_shares(positions)
         with np.errstate(over="ignore"):  # what becomes infinite is refused as that
-            positions *= _pixels(image_size)
+            positions *= factors
         unit = "px"
     rate, possible, start, notes = points.rate_hz, points.rate_range, 0.0, list(points.notes)
     if points.times is not None:
@@ -99,7 +111,7 @@ def source_motion(
         rate_range=possible,
         start_s=start,
         clock_place=points.time_place if points.times is not None else None,
-        notes=tuple(notes),
+        notes=(*notes, *odd),
     )
 
 
@@ -115,6 +127,19 @@ def _blank(
         trust = points.confidence.get(joint)
         if trust is not None:
             positions[~((trust > 0) & (trust >= threshold)), j] = np.nan
+
+
+def check_confidence(trust: NDArray[np.float64], joints: Sequence[str]) -> None:
+    """Refuse confidences (F, J) of a tracker that are none: it gives 0 to 1, or little more."""
+    with np.errstate(invalid="ignore"):
+        wrong = np.argwhere(np.abs(trust) > MOST_CONFIDENCE)
+    if len(wrong):
+        frame, joint = (int(i) for i in wrong[0])
+        raise SignkinError(
+            f"a confidence of {trust[frame, joint]:.4g}",
+            place=f"joint {joints[joint]}, frame {frame}",
+            expected="0 to 1: are these x, y and confidence?",
+        )
 
 
 def threshold_of(value: Any) -> float:
@@ -141,6 +166,37 @@ def _pixels(image_size: Any) -> NDArray[np.float64]:
         )
     width, height = (float(v) for v in image_size)
     return np.array([width, height, width])  # trackers give depth in image widths
+
+
+def _check_shares(positions: NDArray[np.float64]) -> None:
+    """Refuse pixels where shares of the image are to be made pixels; some may lie outside it."""
+    there = np.abs(positions[..., :2][np.isfinite(positions[..., :2])])
+    if there.size and np.median(there) > MOST_SHARE:
+        raise SignkinError(
+            f"coordinates of {np.median(there):.4g} (the median), which are no shares of an image",
+            place="options, image_size",
+            expected="coordinates from 0 to 1",
+            todo="Leave image_size out where the file has pixels.",
+        )
+
+
+def _check_sentinels(positions: NDArray[np.float64], points: Points) -> tuple[str, ...]:
+    """Refuse points that say `missing` in a number that is not declared; note those at 0."""
+    first = positions[..., 0]
+    same = (first == positions[..., 1]) & np.isin(np.abs(first), SENTINELS)
+    for j in np.flatnonzero(same.any(axis=0)):
+        frame = int(np.flatnonzero(same[:, j])[0])
+        line = "" if points.lines is None else f"line {points.lines[frame]}, "
+        raise SignkinError(
+            f"{points.joints[j]} is at {first[frame, j]:g} in all coordinates",
+            place=f"{line}frame {frame}",
+            expected="a place, or a gap",
+            todo=f"Does it mean `not seen`? Declare options: {{missing: {first[frame, j]:g}}}; "
+            "else {missing: []}.",
+        )
+    zero = int((positions == 0).all(axis=2).sum())
+    told = "points at exactly 0 in all coordinates are kept as places (options: missing)"
+    return (f"{zero} {told}",) if zero else ()
 
 
 def _seconds(time_unit: str | None) -> float:
@@ -179,15 +235,3 @@ def _one_rate(
             todo="Declare options: {times: ignore} where the header is right.",
         )
     return told, points.rate_range or (told, told)
-
-
-def refuse_shares(positions: NDArray[np.float64], what: str) -> None:
-    """Refuse key points from 0 to 1: neither metres nor pixels without the image's size."""
-    there = positions[..., :2][np.isfinite(positions[..., :2])]
-    if there.size and np.abs(there).max() <= 2.0:
-        raise SignkinError(
-            f"coordinates up to {np.abs(there).max():.3g}, which are shares of the image",
-            place=what,
-            expected="pixels, or the image's size",
-            todo="Declare options: {image_size: [WIDTH, HEIGHT]}.",
-        )

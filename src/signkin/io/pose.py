@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 from pose_format import Pose
 
 from signkin.errors import SignkinError, listed
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.chosen import pick
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import content_of, quoted
 
 WORLD = "POSE_WORLD_LANDMARKS"

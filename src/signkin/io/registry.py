@@ -9,7 +9,7 @@ A format is one file in this folder: it registers a function with
 from __future__ import annotations
 
 import inspect
-from collections import Counter
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,13 +23,22 @@ from signkin.annotation_rules import GlossRules, excerpt
 from signkin.clock import FASTEST_HZ, SLOWEST_HZ, no_rate_of_motion
 from signkin.errors import SignkinError, listed
 from signkin.io.axes import axis_basis, turned
+from signkin.io.chosen import check_joint_map, check_positions, check_shares, check_wrists
 from signkin.io.collecting import annotation_options, check_annotation_options
 from signkin.io.text import brief, quoted
 from signkin.recording import Recording
 
+# What people bring and no reader reads -> what to do.
+CONVERTED = {
+    ".asf": "It is the skeleton of an .amc file: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".amc": "With its .asf it is one recording: convert both to BVH (Blender, amc2bvh) or C3D.",
+    ".fbx": "Export it as BVH (Blender, MotionBuilder).",
+    ".mvnx": "Export it as BVH or C3D from MVN Analyze.",
+    ".xlsx": "Save it as CSV.",
+    ".xls": "Save it as CSV.",
+    ".mat": "Save the positions as .npy, (frames, points, 3): scipy.io.loadmat, numpy.save.",
+}
 METRES_PER = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "ft": 0.3048}
-# Beyond this, in any unit, a coordinate is a broken number and no place.
-FURTHEST = 1e9
 # A printed frame time such as 0.0333333 s is 30.00003 Hz: a declared rate may be this far off.
 RATE_TOLERANCE = 1e-3
 
@@ -139,18 +148,18 @@ def read_recording(
     Returns positions in metres (or pixels), orientations where the file has them.
     Raises SignkinError with the file and the place in it.
     """
-    path = Path(path)
+    path = _file(path)
     part = None if part is None else str(part)
     wanted = _find(_MOTION, path, format, "motion")
     try:
-        _check_joint_map(joints)
+        check_joint_map(joints)
         _check_options(wanted, options)
     except SignkinError as error:
         raise brief(error.at(file=path)) from error
     folders = wanted in {_MOTION[key][0] for key in _FOLDERS}
     source = _guarded(wanted, path, folders, joints=joints, part=part, **options)
     try:
-        _check_positions(source)
+        check_positions(source.positions, source.joints)
         scale, final_unit = _scale(source.unit, unit)
         basis = axis_basis(up, right)
         rate, rate_notes = _agreed_rate(source, rate_hz)
@@ -159,6 +168,10 @@ def read_recording(
             positions = source.positions @ basis.T * scale
         else:
             positions = source.positions * scale @ basis.T
+        sized = "image_size" in inspect.signature(wanted).parameters
+        if options.get("image_size") is None:
+            check_shares(positions, final_unit, sized)
+        check_wrists(positions, source.joints)
         orientations = None
         if source.orientations is not None:
             orientations = turned(source.orientations, basis)
@@ -177,37 +190,10 @@ def read_recording(
         raise brief(error.at(file=path)) from error
 
 
-def _check_joint_map(joints: object) -> None:
-    """Refuse a joint map that is none, and one that gives two joints one place in the file."""
-    if joints is None:
-        return
-    if not isinstance(joints, Mapping):
-        raise SignkinError(
-            f"the joint map is {quoted(joints)}",
-            place="joints",
-            expected="canonical name: name in the file",
-        )
-    taken: dict[Any, str] = {}
-    for joint, place in joints.items():
-        for column in place if isinstance(place, list | tuple) else (place,):
-            if not isinstance(column, str | int):
-                raise SignkinError(
-                    f"{joint} has {quoted(column)}", place="joints", expected="names of the file"
-                )
-            if column in taken:
-                both = f"{taken[column]} and {joint}" if taken[column] != joint else str(joint)
-                raise SignkinError(
-                    f"{quoted(column)} stands twice, for {both}",
-                    place="joints",
-                    expected="each joint its own place in the file",
-                )
-            taken[column] = str(joint)
-
-
 def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
     """Refuse an option that a motion reader does not have."""
     shared = ("joints", "part")
-    parameters = inspect.signature(reader).parameters.values()
+    parameters = list(inspect.signature(reader).parameters.values())
     options = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in shared]
     unknown = [name for name in given if name not in options]
     if unknown:
@@ -217,25 +203,20 @@ def _check_options(reader: MotionReader, given: Mapping[str, Any]) -> None:
             place="options",
             expected=listed([*options, "clock"], 40),
         )
+    for parameter in parameters:
+        value = given.get(parameter.name)
+        if parameter.annotation in ("bool", "bool | None") and not isinstance(value, bool | None):
+            raise SignkinError(
+                f"{parameter.name} is {quoted(value)}",
+                place="options",
+                expected="true or false",
+            )
 
 
-def _check_positions(source: SourceMotion) -> None:
-    """Refuse what is no coordinate, before the axes are turned: infinity times 0 is a gap."""
-    if len(source.positions) < 2:
-        raise SignkinError(
-            f"{len(source.positions)} frames", place="frames", expected="2 frames or more"
-        )
-    with np.errstate(invalid="ignore"):
-        bad = np.abs(source.positions) > FURTHEST
-    if bad.any():
-        frame, joint, axis = (int(i) for i in np.argwhere(bad)[0])
-        value = source.positions[frame, joint, axis]
-        infinite = "the positions hold an infinite value"
-        raise SignkinError(
-            f"a coordinate of {value:g}" if np.isfinite(value) else infinite,
-            place=f"joint {source.joints[joint]}, frame {frame}",
-            expected="a finite value, or NaN for a gap",
-        )
+def _file(path: object) -> Path:
+    if not isinstance(path, str | os.PathLike):
+        raise SignkinError(f"the path is {quoted(path)}", expected="a file's name")
+    return Path(path)
 
 
 def _clock(source: SourceMotion, rate_hz: float, clock: str | None) -> tuple[str, ...]:
@@ -284,10 +265,10 @@ def read_annotation(
 
     Raises SignkinError with the file and the tier.
     """
-    path = Path(path)
+    path = _file(path)
     reader = _find(_ANNOTATION, path, format, "annotation")
     check_annotation_options(reader, options, path)
-    asked = (tiers,) if isinstance(tiers, str) else None if tiers is None else tuple(tiers)
+    asked = _asked(tiers, path)
     spec = {"tiers": asked, "name": name, "part": part, **options}
     annotation: Annotation = _guarded(reader, path, False, **spec)
     try:
@@ -295,6 +276,18 @@ def read_annotation(
         return annotation if gloss is None else GlossRules.of(gloss).applied(annotation)
     except SignkinError as error:
         raise error.at(file=path) from error
+
+
+def _asked(tiers: Any, path: Path) -> tuple[TierWish, ...] | None:
+    """Return the tiers that are asked for, None for all."""
+    if tiers is None or isinstance(tiers, str | Mapping):
+        return None if tiers is None else (tiers,)
+    if isinstance(tiers, Sequence) and all(isinstance(t, str | Mapping) for t in tiers):
+        return tuple(tiers)
+    raise SignkinError(
+        f"the tiers are {quoted(tiers)}", file=path, place="tiers",
+        expected="names, or mappings of pattern and participant",
+    )  # fmt: skip
 
 
 def in_file_axes(
@@ -410,6 +403,13 @@ def _find(
     for reader, suffixes in readers.values():
         if path.suffix.lower() in suffixes:
             return reader
+    if what == "motion" and path.suffix.lower() in CONVERTED:
+        raise SignkinError(
+            f"{path.suffix.lower()} is not read",
+            file=path,
+            expected="a motion format of docs/adding-a-corpus.md",
+            todo=CONVERTED[path.suffix.lower()],
+        )
     known = sorted(suffix for _, suffixes in readers.values() for suffix in suffixes)
     raise SignkinError(
         f"the suffix {quoted(path.suffix)} tells no {what} format",
@@ -436,41 +436,3 @@ def _guarded(reader: Any, path: Path, folders: bool, **arguments: Any) -> Any:
         raise brief(error.at(file=path)) from error
     except OSError as error:
         raise SignkinError(f"not readable ({error.strerror})", file=path) from error
-
-
-def pick(
-    available: tuple[str, ...], wanted: Mapping[str, Any] | None
-) -> tuple[tuple[str, ...], list[int]]:
-    """Return canonical names and the file's indices of the wanted joints (None: all)."""
-    if wanted is None:
-        twice = sorted(name for name, count in Counter(available).items() if count > 1)
-        if twice:
-            raise _stands_twice(twice)
-        return available, list(range(len(available)))
-    unknown = [str(name) for name in wanted.values() if name not in available]
-    if unknown:
-        raise SignkinError(
-            f"no joint {listed(unknown)} in the file",
-            place="joints",
-            expected=listed(available, 200),
-        )
-    twice = [name for name in wanted.values() if available.count(name) > 1]
-    if twice:
-        raise _stands_twice(twice)
-    shared = [name for name, count in Counter(wanted.values()).items() if count > 1]
-    if shared:
-        joints = [joint for joint, name in wanted.items() if name == shared[0]]
-        raise SignkinError(
-            f"{quoted(shared[0])} stands twice, for {' and '.join(joints)}",
-            place="joints",
-            expected="each joint its own place in the file",
-        )
-    return tuple(wanted), [available.index(name) for name in wanted.values()]
-
-
-def _stands_twice(names: list[str]) -> SignkinError:
-    return SignkinError(
-        f"joint {listed(names, 5)} stands twice in the file",
-        place="joints",
-        expected="each joint once; two people of the same names are told apart by `part`",
-    )

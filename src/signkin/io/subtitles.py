@@ -23,6 +23,7 @@ _VOICE = re.compile(r"<v(?P<classes>(?:\.[^\s<>.]+)*)(?:\s+(?P<name>[^<>]*))?>")
 _SRT_MARKUP = re.compile(r"</?(?:i|b|u|font)(?:\s[^<>]*)?>|\{\\[^{}]*\}", re.IGNORECASE)
 _VTT_MARKUP = re.compile(r"<[^<>]*>")
 _SPEAKER = re.compile(r"\s*([^:\n]{1,40}):\s*(.*)", re.DOTALL)
+_MAP = re.compile(r"X-TIMESTAMP-MAP=.*")
 _NOT_CUES = ("NOTE", "STYLE", "REGION")
 _TIMES = TimeFormat("timecode", None, None)
 
@@ -65,10 +66,16 @@ def read_vtt(
     name: str | None = None,
     part: str | None = None,
     encoding: str | None = None,
+    timestamp_map: str | None = None,
 ) -> Annotation:
-    """Read the cues of a WebVTT file; speakers are tiers, else the one tier asked for."""
+    """Read the cues of a WebVTT file; speakers are tiers, else the one tier asked for.
+
+    timestamp_map: `ignore`, where the header's X-TIMESTAMP-MAP of a stream moves the clock.
+    """
+    text = read_text(path, encoding)
+    _check_map(text, timestamp_map)
     spoken = []
-    for cue in _cues(read_text(path, encoding), vtt=True):
+    for cue in _cues(text, vtt=True):
         voices = list(_VOICE.finditer(cue.text))
         if not voices:
             spoken.append((cue, "", _plain(cue.text)))
@@ -139,6 +146,20 @@ def _cues(text: str, vtt: bool) -> list[_Cue]:
                 )
         out.append(_Cue(line, start, end, "\n".join(lines[at + 1 :])))
     return out
+
+
+def _check_map(text: str, declared: str | None) -> None:
+    """Refuse a header that moves the clock of the cues (HTTP Live Streaming, section 3.5)."""
+    found = _MAP.search(text.partition("\n\n")[0])
+    if found is None or declared == "ignore":
+        return
+    line = text.count("\n", 0, found.start()) + 1
+    raise SignkinError(
+        f"{found.group()[:60]!r}, by which cues count in the clock of a stream",
+        place=f"line {line}",
+        expected="times that count from the recording's start",
+        todo="Declare options: {timestamp_map: ignore}, and clock_offset_s where they are shifted.",
+    )
 
 
 def _is_no_cue(line: str) -> bool:

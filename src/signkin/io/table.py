@@ -10,10 +10,9 @@ numbers an editor shows.
 
 from __future__ import annotations
 
-import csv
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -23,11 +22,13 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
 from signkin.io.text import NOT_A_NUMBER, half_digit, number, quoted, text_lines
+from signkin.rows import check_length, composed, excel_separator, plain_name, table_rows
 
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t", "space": " "}
 GAPS = frozenset({"", "na", "n/a", "null", "none"}) | NOT_A_NUMBER
 # Line numbers are an index that starts at line 2: that of the row below a header of one line.
 FIRST_LINE = 2
+NAMELESS = "Unnamed: 0"  # as pandas calls a first column without a name: its numbers of rows
 _DIGITS = set("0123456789+-.eE")
 
 
@@ -91,12 +92,13 @@ def read_text_table(
 ) -> pd.DataFrame:
     """Return a table with every cell as text; a file is parsed once, however often asked for.
 
-    wanted: the columns to keep (None: all); also: those besides, in small letters, that are kept
-    where they are there. One file can hold hundreds of recordings. The row
-    with index i stands in line i + 2 of the file, whatever was passed over before it.
+    wanted: the columns to keep (None: all), whatever way their accents are coded; also: those
+    besides, as `plain_name` has them, that are kept where they are there. One file can hold
+    hundreds of recordings. The row with index i stands in line i + 2 of the file, whatever was
+    passed over before it.
     """
     state = Path(path).stat()
-    names = None if wanted is None else tuple(dict.fromkeys(str(name) for name in wanted))
+    names = None if wanted is None else tuple(dict.fromkeys(composed(str(n)) for n in wanted))
     return _parsed(Path(path), state.st_mtime_ns, state.st_size, layout, names, also)
 
 
@@ -116,7 +118,7 @@ def _parsed(
             raise _stands_twice(name)
         if name not in header:
             raise _no_column(name, header, separator)
-    asked = None if wanted is None else {*wanted, *(n for n in header if n.lower() in also)}
+    asked = None if wanted is None else {*wanted, *(n for n in header if plain_name(n) in also)}
     kept = [i for i, name in enumerate(header) if (name if asked is None else name in asked)]
     kept = [i for i in kept if header[i] not in doubled]
     cells: list[list[str]] = [[] for _ in kept]
@@ -136,22 +138,14 @@ def _parsed(
     return table
 
 
-def check_length(row: Sequence[str], expected: int, line: int) -> None:
-    """Refuse a row of more or fewer cells than the header, unless what is too much is empty."""
-    if len(row) < expected or any(cell.strip() for cell in row[expected:]):
-        raise SignkinError(
-            f"{len(row)} cells",
-            place=f"line {line}",
-            expected=f"{expected}, as in the header",
-            todo="Take the line out, or write an empty cell for what is missing.",
-        )
-
-
 def _header(
     path: Path, layout: Layout, wanted: tuple[str, ...] | None
 ) -> tuple[list[str], str, int]:
     """Return the names of the columns, the separator and the number of the first row's line."""
     declared = layout.character
+    named = excel_separator(next(text_lines(path, layout.encoding), ""))
+    if named is not None and not layout.skip_rows:
+        declared, layout = declared or named, replace(layout, skip_rows=1)
     candidates = [declared] if declared is not None else [",", ";", "\t"]
     best: tuple[list[str], str, int] | None = None
     for separator in candidates:
@@ -179,7 +173,7 @@ def _names(path: Path, layout: Layout, separator: str) -> tuple[list[str], int]:
     head: list[list[str]] = []
     line = 0
     for line, row in rows:  # noqa: B007 the last one is wanted below
-        head.append([cell.strip() for cell in row])
+        head.append([composed(cell.strip()) for cell in row])
         if len(head) == layout.header_rows:
             break
     if len(head) < layout.header_rows:
@@ -188,7 +182,10 @@ def _names(path: Path, layout: Layout, separator: str) -> tuple[list[str], int]:
     while width and not any(row[width - 1 : width] not in ([], [""]) for row in head):
         width -= 1
     if layout.header_rows == 1:
-        return head[0][:width], line + 1
+        names = head[0][:width]
+        if width > 1 and not names[0] and NAMELESS not in names:
+            names[0] = NAMELESS
+        return names, line + 1
     return [" ".join(c for c in cells if c) for cells in spread(head, width)], line + 1
 
 
@@ -224,33 +221,16 @@ def rows_of(
     for _ in range(first - 1):
         next(lines, None)
     if separator == " ":
-        for line, text in enumerate(lines, start=first):
-            if text.strip():
-                yield line, text.split()
+        yield from ((n, text.split()) for n, text in enumerate(lines, start=first) if text.strip())
         return
-    reader = csv.reader((f"{line}\n" for line in lines), delimiter=separator, strict=True)
-    before = 0
-    while True:
-        try:
-            row = next(reader)
-        except StopIteration:
-            return
-        except csv.Error as error:
-            raise SignkinError(
-                f"not readable as CSV ({error})",
-                place=f"line {first + before}",
-                expected="quotes in pairs, and cells of less than 100 kB",
-            ) from error
-        line, before = first + before, reader.line_num
-        if row and not (len(row) == 1 and not row[0].strip()):
-            yield line, row
+    yield from table_rows(lines, separator, first)
 
 
 def rows_of_part(table: pd.DataFrame, column: str | None, part: str | None) -> pd.DataFrame:
     """Return the rows of one recording, where a column tells several apart."""
     if column is None:
         return table
-    known_column(table, column)
+    column = known_column(table, column)
     if part is None:
         raise SignkinError(
             f"the table holds several recordings (column {column})",
@@ -268,6 +248,7 @@ def rows_of_part(table: pd.DataFrame, column: str | None, part: str | None) -> p
 
 def known_column(table: pd.DataFrame, column: str) -> str:
     """Return the name of a column that is there; a missing one is an error that lists them."""
+    column = column if column in table.columns else composed(column)
     if column in table.attrs.get("doubled", ()):
         raise _stands_twice(column)
     if column not in table.columns:
@@ -333,7 +314,7 @@ def _numbers(
             value = float("nan")
         if value is None:
             raise SignkinError(
-                f"found {quoted(rows[column].iloc[i])}",
+                f"found {quoted(rows[known_column(rows, column)].iloc[i])}",
                 place=f"line {rows.index[i] + FIRST_LINE}, column {column}",
                 expected="a number, or nothing for a gap",
             )

@@ -9,15 +9,16 @@ import codecs
 import csv
 import math
 import re
-import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 from signkin.errors import SignkinError, listed
+from signkin.rows import check_length, composed, excel_separator, table_rows
 
 SEPARATORS = (",", ";", "\t")
+NAMED = {"comma": ",", "semicolon": ";", "tab": "\t"}
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?", re.ASCII)
 # h:m:s or m:s; the seconds may have decimals, or frames behind another colon or semicolon.
 _CLOCK = re.compile(
@@ -85,8 +86,8 @@ class TextTable:
         if count == 1:
             return self.columns.index(column)
         if not count:  # accents may be coded in another way
-            plain = [unicodedata.normalize("NFC", name) for name in self.columns]
-            wanted = unicodedata.normalize("NFC", column)
+            plain = [composed(name) for name in self.columns]
+            wanted = composed(column)
             if plain.count(wanted) == 1:
                 return plain.index(wanted)
         if count:
@@ -151,47 +152,37 @@ def _parsed(
     size: int,
 ) -> TextTable:
     text = read_text(path, encoding)
-    head = next((line for line in text.split("\n") if line.strip()), "")
-    rows = split_rows(text, separator or _separator(head, wanted), keep_blank=keep_blank)
+    named = excel_separator(text.partition("\n")[0])
+    start = 1 if named is None else 2
+    head = next((line for line in text.split("\n")[start - 1 :] if line.strip()), "")
+    mark = separator or named or _separator(head, wanted)
+    rows = split_rows(text, mark, keep_blank=keep_blank, first=start)
     if not rows:
         raise SignkinError("nothing in it", place="line 1", expected="a header and rows")
     columns = tuple(cell.strip() for cell in rows[0].cells)
+    while columns and not columns[-1]:
+        columns = columns[:-1]
     for row in rows[1:]:
         if len(row.cells) != len(columns):
-            more = "more" if len(row.cells) > len(columns) else "fewer"
-            raise SignkinError(
-                f"{len(row.cells)} cells, {more} than the header has",
-                place=f"line {row.line}",
-                expected=f"{len(columns)}: {listed(_flat(columns))}",
-                todo="Is the separator right, and is text with a separator in it in quotes?",
-            )
-    return TextTable(columns, tuple(rows[1:]))
+            check_length(row.cells, len(columns), row.line)
+    return TextTable(columns, tuple(Row(r.line, r.cells[: len(columns)]) for r in rows[1:]))
 
 
-def split_rows(text: str, separator: str, *, keep_blank: bool = False) -> list[Row]:
+def split_rows(text: str, separator: str, *, keep_blank: bool = False, first: int = 1) -> list[Row]:
     """Return the rows of a text, with the line each starts in; blank ones if they count.
 
-    An empty line has one empty cell.
+    An empty line has one empty cell. first: the line to start with.
     """
+    separator = NAMED.get(separator, separator) if isinstance(separator, str) else separator
     if not isinstance(separator, str) or len(separator) != 1 or separator in '"\n':
         raise SignkinError(
-            f"the separator is {separator!r}", place="separator", expected="one character"
+            f"the separator is {separator!r}",
+            place="separator",
+            expected=f"{listed(NAMED)}, or one character",
         )
-    rows, before = [], 0
-    lines = (f"{line}\n" for line in text.removesuffix("\n").split("\n"))
-    reader = csv.reader(lines, delimiter=separator, strict=True)
-    try:
-        for cells in reader:
-            if keep_blank or any(cell.strip() for cell in cells):
-                rows.append(Row(before + 1, tuple(cells) or ("",)))
-            before = reader.line_num
-    except csv.Error as error:
-        raise SignkinError(
-            f"not readable as a table ({error})",
-            place=f"line {before + 1}",
-            expected="cells and separators, quotes closed",
-        ) from error
-    return rows
+    lines = text.removesuffix("\n").split("\n")[first - 1 :]
+    rows = table_rows(lines, separator, first, "none" if keep_blank else "cells")
+    return [Row(line, tuple(cells)) for line, cells in rows]
 
 
 def _separator(head: str, wanted: Sequence[str]) -> str:

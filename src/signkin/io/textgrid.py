@@ -19,6 +19,7 @@ from signkin.io.text_rows import decoded
 
 _TOKEN = re.compile(r'"(?:[^"]|"")*"|"|![^\n]*|[^\s"]+')
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?", re.ASCII)
+ROUNDING_S = 0.0015  # programs round ends of files and tiers differently
 EXPECTED = "a TextGrid as Praat writes it (text, not binary)"
 
 
@@ -93,12 +94,20 @@ def _tiers(tokens: _Tokens) -> list[_Tier]:
             )
         name, _ = tokens.text("the name of a tier")
         tier = _Tier(name, shape == "TextTier", line)
-        tokens.number("xmin")
-        tokens.number("xmax")
+        low, high = tokens.number("xmin")[0], tokens.number("xmax")[0]
+        last = low
         for _ in range(tokens.count("the number of intervals")):
             start, line = tokens.number("a time")
             end = start if tier.points else tokens.number("a time")[0]
             text, _ = tokens.text("a text")
+            if start < last - ROUNDING_S or end > high + ROUNDING_S:
+                raise SignkinError(
+                    f"an interval from {start:g} to {end:g} s, where the last one ends at "
+                    f"{last:g} s and the tier at {high:g} s",
+                    place=f"line {line}",
+                    expected="intervals that follow one another within xmin and xmax",
+                )
+            last = end if end >= start else last
             tier.intervals.append((start, end, text, line))
         out.append(tier)
     tokens.end()

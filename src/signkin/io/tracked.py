@@ -1,4 +1,4 @@
-"""Tables of key points tracked in video: MediaPipe, OpenPose without a header, DeepLabCut.
+"""Tables of key points tracked in video: MediaPipe, and OpenPose without a header.
 
 Each is a preset of the one table reader (`table`). Coordinates from 0 to 1 are neither metres nor
 pixels without the image's size, which is to be declared.
@@ -14,23 +14,25 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.chosen import pick
 from signkin.io.landmarks import landmark_names
-from signkin.io.points import Points, refuse_shares, source_motion, threshold_of
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.points import Points, check_confidence, source_motion, threshold_of
+from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import (
     FIRST_LINE,
     Layout,
-    check_length,
     finest_half_digit,
     numbers_of,
     rows_of,
 )
 from signkin.io.text import quoted
+from signkin.rows import check_length
 
-# DeepLabCut's own `pcutoff`, and what MediaPipe takes for a landmark that is in view.
-LIKELY, VISIBLE = 0.6, 0.5
+# What MediaPipe takes for a landmark that is in view.
+VISIBLE = 0.5
 
 
 @motion_reader("mediapipe_csv")
@@ -64,7 +66,7 @@ def read_mediapipe_csv(
             expected="[width, height] of the video in pixels",
         )
     layout = Layout(separator, decimal, encoding=encoding)
-    header = _header(path, layout, 1)[0]
+    header = header_of(path, layout, 1)[0]
     names = tuple(title[2:] for title in header if title[:2].upper() == "X_")
     if not names:
         raise SignkinError(
@@ -78,9 +80,10 @@ def read_mediapipe_csv(
         if f"visibility_{names[i]}" in header
     }
     clock = [] if time_column is None else [time_column]
-    table, short = _body(path, layout, header, [*clock, *titles, *trust.values()], 2, gaps=True)
+    table, short = body_of(path, layout, header, [*clock, *titles, *trust.values()], 2, gaps=True)
     points = numbers_of(table, titles).reshape(len(table), len(chosen), 3)
     seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
+    check_seen(seen)
     masked = sum(int((values < limit).sum()) for values in seen.values())
     notes = [f"{short} rows without all landmarks are gaps"] if short else []
     if masked:
@@ -114,6 +117,7 @@ def read_openpose_csv(
     confidence_threshold: float = 0.0,
     separator: str = "comma",
     decimal: str | None = None,
+    encoding: str | None = None,
 ) -> SourceMotion:
     """Read a table without a header: x, y, confidence of one key point after the other.
 
@@ -121,8 +125,8 @@ def read_openpose_csv(
     last one's confidence may be missing. 0, 0 or confidence 0 is a gap. image_size: for
     coordinates from 0 to 1.
     """
-    layout = Layout(separator, decimal, header_rows=0)
-    first = _header(path, layout, 1)[0]
+    layout = Layout(separator, decimal, header_rows=0, encoding=encoding)
+    first = header_of(path, layout, 1)[0]
     width = len(first)
     if width % 3 == 1 or width < 2:
         raise SignkinError(
@@ -134,17 +138,17 @@ def read_openpose_csv(
     header = [str(i) for i in range(width)]
     titles = [str(3 * i + axis) for i in chosen for axis in (0, 1)]
     trust = {n: str(3 * i + 2) for n, i in zip(canonical, chosen, strict=True) if 3 * i + 2 < width}
-    table, _ = _body(path, layout, header, [*titles, *trust.values()], 1)
+    table, _ = body_of(path, layout, header, [*titles, *trust.values()], 1)
     positions = np.zeros((len(table), len(chosen), 3))
     positions[..., :2] = numbers_of(table, titles).reshape(len(table), len(chosen), 2)
-    if image_size is None:
-        refuse_shares(positions, "coordinates")
+    seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
+    check_seen(seen)
     return source_motion(
         Points(
             joints=canonical,
             positions=positions,
             flat=(True,) * len(canonical),
-            confidence={name: numbers_of(table, [title])[:, 0] for name, title in trust.items()},
+            confidence=seen,
             unit="px",
         ),
         missing=(0.0,),
@@ -153,94 +157,10 @@ def read_openpose_csv(
     )
 
 
-@motion_reader("deeplabcut_csv")
-def read_deeplabcut_csv(
-    path: Path,
-    *,
-    joints: Mapping[str, str] | None = None,
-    part: str | None = None,
-    confidence_threshold: float = LIKELY,
-    separator: str = "comma",
-    decimal: str | None = None,
-) -> SourceMotion:
-    """Read a table of DeepLabCut (SLEAP and Lightning Pose export the same), in pixels.
-
-    Header rows scorer, individuals (where there are several; `part` picks one), bodyparts, coords;
-    rows are frames, numbered, or named by image. Less likely than confidence_threshold is a gap.
-    """
-    limit = threshold_of(confidence_threshold)
-    layout = Layout(separator, decimal)
-    rows = _header(path, layout, 4)
-    titles = [row[0].lower() for row in rows]
-    if "bodyparts" not in titles or "coords" not in titles:
-        raise SignkinError(
-            f"the rows {listed(titles)}", place="line 1", expected="scorer, bodyparts, coords"
-        )
-    parts, coords = rows[titles.index("bodyparts")], rows[titles.index("coords")]
-    owners = rows[titles.index("individuals")] if "individuals" in titles else [""] * len(parts)
-    before = next((i for i, axis in enumerate(coords) if axis == "x"), 0)
-    people = list(dict.fromkeys(owners[before:]))
-    if len(people) > 1 and part is None:
-        raise SignkinError(
-            f"{len(people)} individuals", place="part", expected=f"one of {listed(people)}"
-        )
-    if len(people) < 2:
-        part = None
-    elif part not in people:
-        raise SignkinError(
-            f"no individual {quoted(part)}", place="part", expected=listed(p for p in people if p)
-        )
-    places = {
-        (parts[i], coords[i]): str(i)
-        for i in range(before, len(coords))
-        if part is None or owners[i] == part
-    }
-    names = tuple(dict.fromkeys(name for name, axis in places if axis == "x"))
-    canonical, chosen = pick(names, joints)
-    axes = ("x", "y", "z") if all((names[i], "z") in places for i in chosen) else ("x", "y")
-    lost = [names[i] for i in chosen for axis in axes if (names[i], axis) not in places]
-    if lost or not names:
-        raise SignkinError(f"no y of {listed(lost)}", place="row coords", expected="x and y")
-    wanted = [places[names[i], axis] for i in chosen for axis in axes]
-    trust = {
-        name: places[names[i], "likelihood"]
-        for name, i in zip(canonical, chosen, strict=True)
-        if (names[i], "likelihood") in places
-    }
-    header = [str(i) for i in range(len(coords))]
-    first = titles.index("coords") + FIRST_LINE
-    table, _ = _body(path, layout, header, [*wanted, *trust.values(), "0"], first)
-    _check_index(table)
-    positions = np.zeros((len(table), len(chosen), 3))
-    positions[..., : len(axes)] = numbers_of(table, wanted).reshape(len(table), len(chosen), -1)
-    seen = {name: numbers_of(table, [title])[:, 0] for name, title in trust.items()}
-    masked = sum(int((values < limit).sum()) for values in seen.values())
-    note = f"{masked} points less likely than {limit:g} are gaps"
-    return source_motion(
-        Points(
-            joints=canonical,
-            positions=positions,
-            flat=(len(axes) == 2,) * len(canonical),
-            confidence=seen,
-            unit="px" if len(axes) == 2 else None,
-            notes=(note,) if masked else (),
-        ),
-        confidence_threshold=confidence_threshold,
-    )
-
-
-def _check_index(table: pd.DataFrame) -> None:
-    """Refuse numbered frames that do not follow one another; names of images are not looked at."""
-    cells = [cell.strip() for cell in table["0"].tolist()]
-    if not all(cell.isascii() and cell.isdigit() and len(cell) < 16 for cell in cells):
-        return
-    for i in range(1, len(cells)):
-        if int(cells[i]) - int(cells[i - 1]) != 1:
-            raise SignkinError(
-                f"frame {cells[i]} follows frame {cells[i - 1]}",
-                place=f"line {table.index[i] + FIRST_LINE}",
-                expected="frame numbers that rise by 1",
-            )
+def check_seen(seen: Mapping[str, NDArray[np.float64]]) -> None:
+    """Refuse confidences, joint -> (F,), that are none."""
+    for joint, values in seen.items():
+        check_confidence(values[:, None], [joint])
 
 
 def _once(names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int]]:
@@ -250,7 +170,8 @@ def _once(names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int]]:
     return tuple(names[i] for i in kept), kept
 
 
-def _header(path: Path, layout: Layout, rows: int) -> list[list[str]]:
+def header_of(path: Path, layout: Layout, rows: int) -> list[list[str]]:
+    """Return the cells of the first rows, all of one length."""
     separator = layout.character or ","
     head = [[c.strip() for c in row] for _, row in islice(rows_of(path, layout, separator), rows)]
     if len(head) < rows:
@@ -266,7 +187,7 @@ def _header(path: Path, layout: Layout, rows: int) -> list[list[str]]:
     return [[*row, *[""] * (width - len(row))] for row in head]
 
 
-def _body(
+def body_of(
     path: Path,
     layout: Layout,
     header: Sequence[str],

@@ -86,14 +86,17 @@ def _head(lines: list[str], separator: str, layout: Layout) -> MarkerHead:
             expected="as many; a name may be missing or doubled",
         )
     for place, start in enumerate(starts):
-        found = [axis.upper()[:1] for axis in axes[start : start + 3]]
-        if found != ["X", "Y", "Z"] or start != 2 + 3 * place:
+        found = [axis.upper() for axis in axes[start : start + 3]]
+        numbered = {axis[1:] for axis in found} <= {"", str(place + 1)}
+        if [axis[:1] for axis in found] != ["X", "Y", "Z"] or start != 2 + 3 * place or (
+            not numbered and any(axis[1:].isdigit() for axis in axes)
+        ):  # fmt: skip
             raise SignkinError(
                 f"the marker {quoted(labels[place])} over {listed(axes[start : start + 3])}",
                 place="line 5",
                 expected=f"X{place + 1}, Y{place + 1}, Z{place + 1}",
             )
-    if names[:1] != ["Frame#"] or len(names) < 2 or not labels:
+    if [name.lower() for name in names[:1]] != ["frame#"] or len(names) < 2 or not labels:
         raise SignkinError(
             f"found {quoted(separator.join(names[:2]))}", place="line 4", expected="Frame#, Time"
         )

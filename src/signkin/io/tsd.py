@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from signkin.io.archive import read_numbers
-from signkin.io.registry import SourceMotion, motion_reader, pick
+from signkin.io.chosen import pick
+from signkin.io.registry import SourceMotion, motion_reader
 
 JOINTS = ("left", "right")
 COLUMNS_A_HAND = 11

@@ -6,8 +6,8 @@ Two columns make a flat recording (the third coordinate is 0).
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +15,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from signkin.clock import SECONDS_PER, clock_of
-from signkin.errors import SignkinError, listed
+from signkin.errors import SignkinError
 from signkin.io.points import Points, source_motion
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.table import (
@@ -29,7 +28,9 @@ from signkin.io.table import (
     read_text_table,
     rows_of_part,
 )
-from signkin.io.text import number, quoted
+from signkin.io.telling import TELLING, first_frame_note, ignored, times_of, told_by
+from signkin.io.text import quoted
+from signkin.joints import is_known
 from signkin.recording import Recording
 
 __all__ = [
@@ -47,12 +48,6 @@ __all__ = [
 # Noise is written with digits this much finer than its standard deviation, so that the file's last
 # digit adds nothing to it.
 NOISE_PER_DIGIT = 1000
-# Columns that tell, by name and without being declared, whether rows follow one another.
-_FRAMES = ("frame", "frames", "frame_number", "frame#", "frame_no", "frame_id", "frame_index")
-_OWNERS = ("person", "person_id", "subject", "participant", "signer", "individual", "track_id",
-           "video", "take", "recording", "trial", "session", "clip")  # fmt: skip
-_TIMES = ("time", "times", "t", "time_s", "time_ms", "timestamp", "timestamps", "seconds")
-_TELLING = frozenset({*_FRAMES, *_OWNERS, *_TIMES})
 
 
 @motion_reader("csv", suffixes=(".csv", ".tsv"))
@@ -76,6 +71,7 @@ def read_wide_csv(
     confidence_threshold: float = 0.0,
     image_size: Sequence[float] | None = None,
     velocities: str | None = None,
+    ignore: Sequence[str] | None = None,
 ) -> SourceMotion:
     """Read one recording of a table.
 
@@ -89,30 +85,26 @@ def read_wide_csv(
     confidence: joint -> column; below confidence_threshold, or at 0, the point is missing.
     image_size: [width, height] in pixels, for coordinates from 0 to 1.
     velocities: `integrate`, where the columns are velocities in unit/s; positions start at 0.
+    ignore: columns whose names mean something else than they do elsewhere (see `telling`).
     """
     of_joint = _columns_of(joints)
-    if confidence is not None and not isinstance(confidence, Mapping):
-        raise SignkinError(
-            f"confidence is {quoted(confidence)}",
-            place="options, confidence",
-            expected="joint: column",
-        )
-    trust = {joint: str(c) for joint, c in (confidence or {}).items() if joint in of_joint}
+    trust = _confidence(confidence, of_joint)
     layout = Layout(separator, decimal, skip_rows, header_rows, encoding, missing_texts(missing))
     others = [c for c in (recording_column, frame_column, time_column) if c is not None]
     wanted = [*others, *trust.values(), *(c for columns in of_joint.values() for c in columns)]
-    table = read_text_table(path, layout, wanted, also=_TELLING)
+    table = read_text_table(path, layout, wanted, also=TELLING)
     rows = rows_of_part(table, recording_column, part)
-    _check_telling(rows, others)
+    told = told_by(rows, [*others, *ignored(ignore)], time_column is not None)
     if frame_column is not None:
         frames = column_numbers(rows, frame_column)
         order = np.argsort(frames, kind="stable")
         rows = rows.iloc[order]
         _check_frames(frames[order], rows.index.to_numpy())
-    times = None if time_column is None else column_numbers(rows, time_column)
-    return source_motion(
+        told = replace(told, notes=(*told.notes, *first_frame_note(frames[order][0])))
+    times = None if time_column is None else times_of(rows, time_column)
+    motion = source_motion(
         Points(
-            rate_range=None if time_column is not None else _undeclared_rate(rows),
+            rate_range=None if told.clock is None else told.clock.rate_range,
             joints=tuple(of_joint),
             positions=_positions(rows, of_joint),
             flat=tuple(len(columns) == 2 for columns in of_joint.values()),
@@ -120,14 +112,35 @@ def read_wide_csv(
             times=times,
             half_digit=0.0 if time_column is None else printed_half_digit(rows, time_column),
             time_place=f"column {time_column}",
+            notes=told.notes,
+            lines=rows.index.to_numpy() + FIRST_LINE,
         ),
         time_unit=time_unit,
         resample_hz=resample_hz,
-        missing=missing_numbers(missing),
+        missing=None if missing is None else missing_numbers(missing),
         confidence_threshold=confidence_threshold,
         image_size=image_size,
         velocities=velocities,
     )
+    if told.clock is None:
+        return motion
+    return replace(motion, start_s=told.clock.start_s, clock_place=told.place)
+
+
+def _confidence(declared: Any, of_joint: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Return joint -> column of confidence, of the joints that are read."""
+    if declared is not None and not isinstance(declared, Mapping):
+        raise SignkinError(
+            f"confidence is {quoted(declared)}",
+            place="options, confidence",
+            expected="joint: column",
+        )
+    for joint in declared or {}:
+        if joint not in of_joint and not is_known(str(joint)):
+            raise SignkinError(
+                f"no joint {quoted(joint)}", place="options, confidence", expected="a joint's name"
+            )
+    return {joint: str(c) for joint, c in (declared or {}).items() if joint in of_joint}
 
 
 def _columns_of(joints: Mapping[str, Sequence[str]] | None) -> dict[str, list[str]]:
@@ -152,59 +165,6 @@ def _positions(rows: pd.DataFrame, of_joint: Mapping[str, Sequence[str]]) -> NDA
     for column, (j, axis) in enumerate(places):
         positions[:, j, axis] = numbers[:, column]
     return positions
-
-
-def _check_telling(rows: pd.DataFrame, declared: Sequence[str]) -> None:
-    """Refuse a table whose undeclared columns say that its rows are not one recording's frames.
-
-    A person or take that changes, and frame numbers that do not rise evenly.
-    """
-    telling = [column for column in rows.columns if column.lower() in (*_OWNERS, *_FRAMES)]
-    telling.sort(key=lambda column: column.lower() in _FRAMES)  # whose frames they are comes first
-    for column in telling:
-        if column in declared:
-            continue
-        if column.lower() in _OWNERS:
-            owners = rows[column].unique()
-            if len(owners) > 1:
-                raise SignkinError(
-                    f"{len(owners)} values in the column {column}: {listed(owners, 3)}",
-                    place=f"line {rows.index[rows[column] != owners[0]][0] + FIRST_LINE}",
-                    expected="one recording",
-                    todo=f"Declare options: {{recording_column: {column}}}, and `part`.",
-                )
-            continue
-        frames = [number(cell.strip()) for cell in rows[column]]
-        steps = [None if a is None or b is None else b - a for a, b in itertools.pairwise(frames)]
-        usual = steps[0] if steps else None
-        wrong = next((i for i, s in enumerate(steps) if s is None or s <= 0 or s != usual), None)
-        if wrong is not None and all(frame is not None for frame in frames):
-            raise SignkinError(
-                f"{column} {frames[wrong + 1]:g} follows {frames[wrong]:g}",
-                place=f"line {rows.index[wrong + 1] + FIRST_LINE}",
-                expected="frames that rise evenly, or several recordings that are told apart",
-                todo=f"Declare options: {{frame_column: {column}}}, or recording_column.",
-            )
-
-
-def _undeclared_rate(rows: pd.DataFrame) -> tuple[float, float] | None:
-    """Return the rates that an undeclared column of times leaves possible, None without such.
-
-    Its unit is the one of s, ms, us and ns under which the times are those of motion.
-    """
-    for column in rows.columns:
-        cells = [number(cell.strip()) for cell in rows[column]] if column.lower() in _TIMES else []
-        times = np.array([cell for cell in cells if cell is not None])
-        if len(times) < 2 or len(times) < len(cells):
-            continue
-        for step in SECONDS_PER.values():
-            try:
-                half = printed_half_digit(rows, column) * step
-                clock = clock_of(times * step, column, half)
-            except SignkinError:
-                continue
-            return clock.rate_range
-    return None
 
 
 def missing_texts(missing: Any) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 
 def curvature(
@@ -32,7 +33,7 @@ def curvature(
     On a path that comes back on itself the three points tell half a turn or nothing (0 on an
     exact reversal): sample it densely.
     """
-    path = np.asarray(path, dtype=float)
+    path = unmasked(path)
     if path.ndim != 2 or path.shape[1] not in (2, 3):
         raise SignkinError(
             f"the path has the shape {path.shape}", place="curvature", expected="(F, 2) or (F, 3)"

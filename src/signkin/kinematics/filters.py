@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
 from signkin.kinematics.gaps import stretches
+from signkin.masked import unmasked
 
 METHODS = ("butterworth", "fir")
 FIR_LENGTH_S = 51 / 240  # 50 samples at 240 Hz, made odd
@@ -46,7 +47,7 @@ def lowpass(
             place="lowpass.cutoff_hz",
             expected=f"above 0 and below {rate_hz / 2:g} Hz, half the rate",
         )
-    flat = np.asarray(x, dtype=float).reshape(len(x), -1)
+    flat = unmasked(x).reshape(len(x), -1)
     out = np.full_like(flat, np.nan)
     taps = _taps(rate_hz, cutoff_hz) if method == "fir" else None
     there = ~np.isnan(flat)

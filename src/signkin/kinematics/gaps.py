@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
 from signkin.joints import wrists_of
+from signkin.masked import unmasked
 from signkin.recording import Recording
 
 
@@ -33,6 +34,7 @@ def fill_gaps(
     Returns the filled track and which frames were filled, (F,). The filling is a
     shape-preserving cubic (PCHIP), which does not overshoot.
     """
+    track = unmasked(track)
     gap = np.asarray(np.isnan(track).any(axis=1))
     filled = np.zeros(len(track), dtype=bool)
     longest = longest_gap_s * rate_hz + 1e-9

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 
 def numbers(values: Any, place: str, shape: str, axes: int, least: int) -> NDArray[np.float64]:
@@ -16,7 +17,7 @@ def numbers(values: Any, place: str, shape: str, axes: int, least: int) -> NDArr
     place, shape: what it is and how it should look, for the error.
     """
     try:
-        found = np.asarray(values, dtype=float)
+        found = unmasked(values)
     except (TypeError, ValueError) as error:
         raise SignkinError(
             f"no array of numbers ({error})", place=place, expected=f"shape {shape}"

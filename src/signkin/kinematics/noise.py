@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError
 from signkin.joints import wrists_of
+from signkin.masked import unmasked
 from signkin.recording import Recording
 
 ROBUST = 1.4826  # standard deviation of a normal distribution by its median absolute deviation
@@ -61,7 +62,7 @@ def measure_noise(recording: Recording, joints: Sequence[str] | None = None) -> 
 
 def axis_noise(track: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     """Return the noise of a track (F, 3), NaN in gaps, by axis (3,), and the correlation."""
-    third = np.diff(track, n=3, axis=0)
+    third = np.diff(unmasked(track), n=3, axis=0)
     there = np.asarray(np.isfinite(third).all(axis=1))
     if there.sum() < LEAST_DIFFERENCES:
         raise SignkinError(

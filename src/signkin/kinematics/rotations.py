@@ -4,6 +4,7 @@ between two postures."""
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import scipy  # loads its parts when they are used
@@ -201,19 +202,21 @@ def world_pose(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return world positions (F, J, 3) and orientations (F, J, 4): forward kinematics."""
     positions, orientations = shifts.copy(), rotations.copy()
-    for joint in _downwards(parents):
-        parent = parents[joint]
-        if parent >= 0:
-            turn = orientations[:, parent]
-            positions[:, joint] = positions[:, parent] + rotate(turn, shifts[:, joint])
-            orientations[:, joint] = multiply(turn, rotations[:, joint])
+    for joints, above in _levels(parents):
+        turn = orientations[:, above]
+        positions[:, joints] = positions[:, above] + rotate(turn, shifts[:, joints])
+        orientations[:, joints] = multiply(turn, rotations[:, joints])
     return positions, orientations
 
 
-def _downwards(parents: tuple[int, ...]) -> list[int]:
-    """Return the joints, parents before children."""
+@lru_cache(maxsize=64)
+def _levels(parents: tuple[int, ...]) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Return the joints of each depth below the roots, and their parents: downwards."""
 
     def depth(joint: int) -> int:
         return 0 if parents[joint] < 0 else 1 + depth(parents[joint])
 
-    return sorted(range(len(parents)), key=depth)
+    depths = np.array([depth(joint) for joint in range(len(parents))])
+    at = np.array(parents)
+    levels = (np.flatnonzero(depths == d) for d in range(1, depths.max(initial=0) + 1))
+    return [(joints, at[joints]) for joints in levels]

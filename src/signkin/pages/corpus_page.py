@@ -15,7 +15,9 @@ import signkin
 from signkin import tables
 from signkin.pages.corpora import design, origin
 from signkin.pages.corpus_durations import counted, durations_of
+from signkin.pages.corpus_elan import MOST_FILES, Looked, write_check_files
 from signkin.pages.corpus_list import overview_of, todo_of
+from signkin.pages.corpus_segments import agreement_section, boundaries_section
 from signkin.pages.corpus_tags import against_chance, tags_of, worst_tags
 from signkin.pages.corpus_views import (
     duration_views,
@@ -126,6 +128,31 @@ class Owner:
         found.loc[ok, "rank"] = 4
         return found.sort_values("rank", kind="stable", ignore_index=True)
 
+    def looked(self) -> dict[str, Looked]:
+        """Return recording -> what a file with a tier `check` is made of."""
+        corpus = self.sources.corpora[self.name]
+        copies = self.sources.naert.file(self.name, "eaf")
+        elan = corpus.tagged and corpus.settings["annotation"]["format"] == "eaf"
+        out = {e.recording: Looked(1.0, e.motion, None) for e in corpus.entries}
+        for row in self.about.itertuples():
+            copy = copies / f"{row.recording}.eaf"
+            offset = float(row.clock_offset_s) if elan else 0.0
+            out[str(row.recording)] = Looked(
+                float(row.duration_s),
+                str(row.motion_file),
+                copy if copy.is_file() else None,
+                offset,
+            )
+        return out
+
+    def write_elan(self, folder: Path) -> dict[str, Path]:
+        """Write an ELAN file with a tier `check` for what is in the list; recording -> file."""
+        try:
+            return write_check_files(self.todo, self.looked(), folder / f"{self.name}_check")
+        except CANNOT as error:
+            traceback.print_exception(error)  # in the log of the job
+            return {}
+
     def write(self, folder: Path) -> dict[str, Path]:
         """Write the tables of the page into a folder; returns what -> file."""
         files = {}
@@ -143,20 +170,27 @@ class Owner:
         return files
 
 
-def corpus_page(owner: Owner, files: dict[str, Path], site: list[tuple[str, Path]]) -> Page:
-    """Return the page; files: the tables that `Owner.write` wrote. site: the other pages."""
+def corpus_page(
+    owner: Owner, files: dict[str, Path], elan: dict[str, Path], site: list[tuple[str, Path]]
+) -> Page:
+    """Return the page; files, elan: what `Owner.write`, `write_elan` wrote. site: other pages."""
     name = owner.name
     corpus = owner.sources.corpora[name]
     sections = [
         _attempted("short", "In short", _short, owner),
-        _attempted("todo", "To work through", _todo, owner, files),
+        _attempted("todo", "To work through", _todo, owner, files, elan),
         _attempted("recordings", "Recordings", _recordings, owner, files),
     ]
     if owner.tagged:
         sections += [
             _attempted("durations", "Durations of transitions", _durations, owner, files),
             _attempted("tags", "Quality of the tags", _tags, owner, files),
+            _attempted("boundaries", "Where signs start and end", boundaries_section, owner),
         ]
+        if corpus.annotators:
+            sections.append(
+                _attempted("annotators", "Agreement of annotators", agreement_section, owner)
+            )
     else:
         sections.append(Section("speed", "Wrist speed", exhibits=(speed_view(owner),)))
     sections.append(Section("lacking", "What is not available, and why", text=_lacking(owner)))
@@ -242,15 +276,21 @@ def _recordings(owner: Owner, files: dict[str, Path]) -> Section:
     return Section("recordings", "Recordings", text=text, exhibits=views)
 
 
-def _todo(owner: Owner, files: dict[str, Path]) -> Section:
-    text = (
+def _todo(owner: Owner, files: dict[str, Path], elan: dict[str, Path]) -> Section:
+    text = [
         "The gravest first. Rate each row when you have looked (ok, check, exclude, with a note), "
         "and save the ratings above: a recording or tag that is rated exclude is left out of the "
         "next run, and listed there.",
-    )
+    ]
     if owner.todo.empty:
         return Section("todo", "To work through", text=("Nothing looks odd.",))
-    view = todo_view(owner, files["todo"])
+    if elan:
+        more = "; the gravest have one" if len(elan) == MOST_FILES else ""
+        text.append(
+            "ELAN: the recording's file with a tier “check”, an annotation for each row of this "
+            f"list ({_counted(len(elan), 'file')} in all{more})."
+        )
+    view = todo_view(owner, files["todo"], elan)
     return Section("todo", "To work through", text=text, exhibits=(view,))
 
 

@@ -11,6 +11,7 @@ import pandas as pd
 
 from signkin.pages.corpora import sign_columns
 from signkin.pages.corpus_durations import counted, untyped_glosses
+from signkin.pages.corpus_elan import address_of
 from signkin.pages.speeds import SPEED_PANELS
 from signkin.report.page import FigureView, PlotView, TableView, View, figure_files
 from signkin.report.plots import Point, scatter, thinned
@@ -188,8 +189,8 @@ def _whole(owner: Owner) -> PlotView:
     )
 
 
-def todo_view(owner: Owner, file: Path) -> TableView:
-    """Return the list of what to look at."""
+def todo_view(owner: Owner, file: Path, elan: dict[str, Path]) -> TableView:
+    """Return the list of what to look at; elan: recording -> its file with a tier `check`."""
     frame = owner.todo
     frame = frame.assign(
         page=[
@@ -200,6 +201,10 @@ def todo_view(owner: Owner, file: Path) -> TableView:
         start=_key(frame["start_s"], frame["what"]),
         end=_key(frame["end_s"], frame["what"]),
         urgency=frame["rank"].map(URGENCY),
+        elan=[
+            address_of(elan[name], file.parent) if name in elan else ""
+            for name in frame["recording"]
+        ],
     )
     frame = rated(owner, frame)
     columns: dict[str, tuple[str, str]] = {
@@ -209,6 +214,8 @@ def todo_view(owner: Owner, file: Path) -> TableView:
     }  # fmt: skip
     if frame["page"].ne("").any():
         columns["page"] = ("excerpt", "open")
+    if elan:
+        columns["elan"] = ("ELAN", "open")
     columns["rating"] = ("your rating", "rating")
     return TableView(
         label="",

@@ -61,9 +61,13 @@ def summary_lines(sources: Sources) -> list[str]:
     claims = read_table(sources.results / "audit" / "claims.csv", "claims")
     printed = claims[claims["evidence"] == PRINT].drop_duplicates(["paper", "id"])
     verdicts = printed["verdict"].value_counts()
-    outcomes = _outcomes(claims)["outcome"].value_counts()
+    found = outcomes(claims)["outcome"].value_counts()
     whole = ", ".join(f"{n} {word}" for word, n in verdicts.items())
-    real = ", ".join(f"{n} {word}" for word, n in outcomes.items())
+    plural = {"holds": "hold", "fails": "fail", "mixed": "hold on some and fail on others"}
+    real = ", ".join(
+        f"{found[word]} {word if found[word] == 1 else plural.get(word, word)}"
+        for word in OUTCOMES if word in found
+    )  # fmt: skip
     return [
         *(f"Look at: {told}." for told in warned),
         front_lead(sources)[0].partition(". ")[0] + ".",
@@ -163,15 +167,17 @@ def _owner_findings(sources: Sources) -> Section:
     rows = [row for name in order for row in _tag_findings(sources, name)]
     rows += [row for name in order for row in _duration_findings(sources, name)]
     rows += [row for name in order for row in _piece_findings(sources, name)]
+    questions = list(dict.fromkeys(row["question"] for row in rows))
+    rows.sort(key=lambda row: questions.index(row["question"]))
     view = TableView(
         label="",
-        title="Findings by corpus",
+        title="Findings by question and corpus",
         caption="A sentence each; numbers, intervals and tests stand where the link leads.",
         frame=pd.DataFrame(rows, columns=["page", "evidence", "question", "found", "more"]),
         columns={
+            "question": ("question", ""),
             "page": ("corpus", "link"),
             "evidence": ("evidence", ""),
-            "question": ("question", ""),
             "found": ("found", ""),
             "more": ("numbers", "open"),
         },
@@ -261,7 +267,8 @@ def _claims(sources: Sources) -> Section:
     claims = read_table(audit / "claims.csv", "claims")
     bad = claims[(claims["evidence"] == PRINT) & (claims["verdict"] == "inconsistent")]
     text = [
-        f"{claims['id'].nunique()} claims of {claims['paper'].nunique()} papers were tested: can "
+        f"{len(claims.drop_duplicates(['paper', 'id']))} claims of {claims['paper'].nunique()} "
+        "papers were tested: can "
         "the printed numbers be right, and is it so in other people's signing?"
     ]
     text += [
@@ -275,7 +282,7 @@ def _claims(sources: Sources) -> Section:
         caption="Each claim by what the corpora of real recordings say. Holds: in all of them that "
         "can tell; mixed: in some and not in others; open: the data allow both, or a choice that "
         "is not printed decides.",
-        frame=_outcomes(claims),
+        frame=outcomes(claims),
         columns={
             "outcome": ("outcome", ""),
             "id": ("claim", ""),
@@ -292,7 +299,10 @@ def _claims(sources: Sources) -> Section:
     return Section("audit", "What holds, what is open", text=text, exhibits=(view,), links=links)
 
 
-def _outcomes(claims: pd.DataFrame) -> pd.DataFrame:
+OUTCOMES = ("holds", "fails", "mixed", "open", "not testable here")
+
+
+def outcomes(claims: pd.DataFrame) -> pd.DataFrame:
     """Return a row a claim; a paper that is audited on its print alone asks nothing of corpora."""
     asked = claims.groupby("paper")["evidence"].transform(lambda e: (e != PRINT).any())
     rows = []
@@ -316,6 +326,5 @@ def _outcomes(claims: pd.DataFrame) -> pd.DataFrame:
                 "told": "; ".join(f"{r.evidence}: {r.verdict}" for r in real.itertuples()),
             }
         )
-    order = ["holds", "fails", "mixed", "open", "not testable here"]
     frame = pd.DataFrame(rows, columns=["outcome", "id", "claim", "print", "told"])
-    return frame.sort_values("outcome", key=lambda c: c.map(order.index), kind="stable")
+    return frame.sort_values("outcome", key=lambda c: c.map(OUTCOMES.index), kind="stable")

@@ -86,7 +86,7 @@ def data_files(sources: Sources) -> pd.DataFrame:
     for name, corpus in sources.corpora.items():
         own = [corpus.folder / n for n in ("corpus.yaml", "recordings.csv", "signs.csv")]
         data = sources.data.get(name)
-        data_names = corpus.files() if data and not corpus.simulator else []
+        data_names = corpus.files() if data and not corpus.made_by_run else []
         for label, path in [
             *((f"description/{p.name}", p) for p in own),
             *((n, data / n) for n in data_names if data),

@@ -35,8 +35,12 @@ def naert_page(sources: Sources, site: list[tuple[str, Path]]) -> Page:
     )  # fmt: skip
 
 
+# Not of the paper, but what a reader of it asks first.
+SHOWN = ("Printed, and found here", "Fig. 3 to 7 under two readings of the prior")
+
+
 def _folded(section: Section) -> Section:
-    """Return a section with what the paper does not have behind its title.
+    """Return a section with most of what the paper does not have behind its title.
 
     How a figure differs from the print is told at the first corpus alone.
     """
@@ -45,7 +49,8 @@ def _folded(section: Section) -> Section:
     for view in section.exhibits:
         differs = "" if view.label in told else view.differs
         told |= {view.label} if view.label else set()
-        views.append(replace(view, folded=not view.label, differs=differs))
+        folded = not view.label and view.title not in SHOWN
+        views.append(replace(view, folded=folded, differs=differs))
     return replace(section, exhibits=views)
 
 

@@ -101,7 +101,9 @@ def write_site(sources: Sources, commit: str) -> None:
     for name in sources.corpora:
         owner = Owner(sources, name)
         written = owner.write(files[name].parent)
-        pages[name] = _attempted(name, sources, site, partial(corpus_page, owner, written, site))
+        elan = owner.write_elan(files[name].parent)
+        make = partial(corpus_page, owner, written, elan, site)
+        pages[name] = _attempted(name, sources, site, make)
     told = "\n".join(summary_lines(sources)) + "\n"
     (sources.home / SUMMARY).write_text(told, encoding="utf-8")
     for name, page in pages.items():

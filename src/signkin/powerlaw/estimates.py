@@ -6,6 +6,12 @@ exponent is found in noise alone (Maoz, Portugaly, Flash & Weiss 2006), and a fi
 shortens sharp bends changes it without any noise. Three regressions stand side by side: the
 non-linear one of the paper, the straight line through the logarithms, and that line with errors
 in both variables.
+
+The last takes the noise's share out of the moments of the logarithms (Fuller 1987, Measurement
+Error Models, section 2.2). It leaves room for movement that keeps no exact law: Deming's line does
+not, and turns upright where scatter that is not noise outweighs a weak slope. Where noise makes
+half or more of what is seen of curvature nothing is left to draw a line through, and there is no
+exponent: so in noise alone, whose errors so reckoned exceed what is seen.
 """
 
 from __future__ import annotations
@@ -25,23 +31,38 @@ from signkin.powerlaw.fit import fit_power_law
 Floats = NDArray[np.float64]
 Filter = Callable[[Floats], Floats]
 NON_LINEAR, LOGARITHMS, BOTH_ERRORS = "non-linear", "logarithms", "errors in both"
+NAN = float("nan")
 ESTIMATORS = (NON_LINEAR, LOGARITHMS, BOTH_ERRORS)
 AXES_M = (0.10, 0.05)  # half axes of the ellipse of the pitfalls
 POWER, LEVEL = 0.8, 0.05
+LEAST_RELIABILITY = 0.5
 
 
 @dataclass(frozen=True)
 class Estimates:
     """What a segment of a path says of the exponent.
 
-    beta: estimator -> exponent (NaN: none). r: correlation coefficient of the logarithms of speed
-    and curvature. r_squared: eq. 5 of the non-linear fit. n: samples.
+    beta: estimator -> exponent (NaN: none, as `note` tells). r: correlation coefficient of the
+    logarithms of speed and curvature. r_squared: eq. 5 of the non-linear fit. n: samples.
+    reliability: share of the variance of log curvature that is not noise; below 0 where noise
+    alone would vary more.
     """
 
     beta: dict[str, float]
     r: float
     r_squared: float
     n: int
+    reliability: float
+
+    @property
+    def note(self) -> str:
+        """Why there is no exponent with errors in both; empty where there is one."""
+        if np.isfinite(self.beta[BOTH_ERRORS]):
+            return ""
+        return (
+            "no exponent with errors in both: noise makes "
+            f"{min(1 - self.reliability, 1):.0%} of what is seen of curvature"
+        )
 
 
 def noise_gains(filtered: Filter, rate_hz: float) -> tuple[float, float]:
@@ -67,30 +88,25 @@ def estimates(
     y, x = np.log(speeds[moving]), np.log(curvatures[moving])
     r = float(np.corrcoef(x, y)[0, 1]) if np.ptp(y) > 0 else float("nan")
     line = float(stats.linregress(x, y).slope)
-    errors = _error_variances(speeds[moving], curvatures[moving], noise_sd, gains)
-    beta = {NON_LINEAR: law.beta, LOGARITHMS: line, BOTH_ERRORS: _deming(x, y, *errors)}
-    return Estimates(beta, r, law.r_squared, len(speeds))
+    of_speed, of_curvature = _error_variances(speeds[moving], curvatures[moving], noise_sd, gains)
+    spread = float(np.var(x))
+    reliability = 1 - of_curvature / spread if spread > 0 else NAN
+    both = NAN
+    if reliability > LEAST_RELIABILITY:
+        # Curvature has the square of speed below its line: an error of one is one of the other.
+        together = float(np.cov(x, y, ddof=0)[0, 1]) + 2 * of_speed
+        both = together / (spread - of_curvature)
+    beta = {NON_LINEAR: law.beta, LOGARITHMS: line, BOTH_ERRORS: both}
+    return Estimates(beta, r, law.r_squared, len(speeds), reliability)
 
 
 def _error_variances(
     v: Floats, k: Floats, noise_sd: float, gains: tuple[float, float]
 ) -> tuple[float, float]:
-    """Return the variances of the errors of log curvature and log speed, medians over samples."""
+    """Return the variances of the errors of log speed and log curvature, medians over samples."""
     of_speed = (noise_sd * gains[0] / v) ** 2
     of_curvature = (noise_sd * gains[1] / (v**2 * k)) ** 2 + 4 * of_speed
-    return float(np.median(of_curvature)), float(np.median(of_speed))
-
-
-def _deming(x: Floats, y: Floats, x_error: float, y_error: float) -> float:
-    """Return the slope of the line with errors in both (Deming); NaN without a correlation."""
-    if not x_error > 0:
-        return float(stats.linregress(x, y).slope)
-    ratio = y_error / x_error
-    sxx, syy, sxy = float(np.var(x)), float(np.var(y)), float(np.cov(x, y, ddof=0)[0, 1])
-    if sxy == 0:
-        return float("nan")
-    gap = syy - ratio * sxx
-    return float((gap + np.sqrt(gap**2 + 4 * ratio * sxy**2)) / (2 * sxy))
+    return float(np.median(of_speed)), float(np.median(of_curvature))
 
 
 # --- what noise, filter and duration do ------------------------------------------------------
@@ -98,7 +114,11 @@ def _deming(x: Floats, y: Floats, x_error: float, y_error: float) -> float:
 
 @dataclass(frozen=True)
 class Pitfall:
-    """Exponents found on one kind of path. values: estimator -> (draws,); r: (draws,)."""
+    """Exponents found on one kind of path. values: estimator -> (draws,), NaN: none; r: (draws,).
+
+    Where half of the draws or more have no exponent there is no number for all of them: those
+    that have one are a choice.
+    """
 
     beta: float
     duration_s: float
@@ -106,11 +126,27 @@ class Pitfall:
     values: dict[str, Floats]
     r: Floats
 
+    def told(self, estimator: str) -> int:
+        """Return how many draws have an exponent."""
+        return int(np.isfinite(self.values[estimator]).sum())
+
+    def mean(self, estimator: str) -> float:
+        """Return the mean exponent; NaN where half of the draws or more have none."""
+        return float(np.nanmean(self.values[estimator])) if self._enough(estimator) else NAN
+
+    def sd(self, estimator: str) -> float:
+        """Return the SD over draws; NaN where half of them or more have no exponent, or of one."""
+        if not self._enough(estimator) or self.told(estimator) < 2:
+            return NAN
+        return float(np.nanstd(self.values[estimator], ddof=1))
+
     def smallest_difference(self, estimator: str) -> float:
         """Return the difference of two segments' exponents that is told with a power of 0.8."""
-        found = self.values[estimator]
         reach = stats.norm.ppf(1 - LEVEL / 2) + stats.norm.ppf(POWER)
-        return float(reach * np.sqrt(2) * np.std(found, ddof=1)) if len(found) > 1 else 0.0
+        return float(reach * np.sqrt(2) * self.sd(estimator))
+
+    def _enough(self, estimator: str) -> bool:
+        return 2 * self.told(estimator) > len(self.r)
 
 
 def ellipse(beta: float, duration_s: float, rate_hz: float, turns: int = 3) -> Floats:

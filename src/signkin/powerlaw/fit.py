@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from signkin.errors import SignkinError
+from signkin.masked import unmasked
 
 FEWEST_SAMPLES = 4  # two parameters, and two samples that can disagree
 # Below this spread (SD of the logarithm) a curvature is constant, and tells no exponent.
@@ -113,7 +114,7 @@ def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float]
 def _checked(
     speed: NDArray[np.float64], curvature: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    v, k = np.asarray(speed, dtype=float), np.asarray(curvature, dtype=float)
+    v, k = unmasked(speed), unmasked(curvature)
     if v.ndim != 1 or v.shape != k.shape:
         raise _error(f"speeds of shape {v.shape}, curvatures of shape {k.shape}", "(F,) and (F,)")
     if len(v) < FEWEST_SAMPLES:

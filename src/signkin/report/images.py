@@ -37,6 +37,14 @@ class Images:
         return Path(os.path.relpath(self.folder / name, home)).as_posix()
 
 
+class InPlace:
+    """Figures that lie near the page already, and are shown from there."""
+
+    def address(self, svg: Path, home: Path) -> str:
+        """Return a figure's address as seen from the page's folder."""
+        return Path(os.path.relpath(svg, home)).as_posix()
+
+
 def size_of(svg: Path) -> tuple[int, int] | None:
     """Return width and height of a drawing, so that a page keeps its place; None if not told."""
     found = _SIZE.search(svg.read_text(encoding="utf-8")[:2000])

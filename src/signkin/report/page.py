@@ -26,7 +26,7 @@ from signkin.report.cells import (
     notes_of,
     texts_of,
 )
-from signkin.report.images import Images, data_uri, size_of
+from signkin.report.images import Images, InPlace, data_uri, size_of
 
 
 @dataclass(frozen=True)
@@ -133,10 +133,10 @@ def figure_files(base: Path, *suffixes: str) -> tuple[Path, ...]:
     return tuple(base.with_suffix(s) for s in (suffixes or (".svg", ".pdf", ".csv")))
 
 
-def render(page: Page, home: Path, images: Images | None = None) -> str:
+def render(page: Page, home: Path, images: Images | InPlace | None = None) -> str:
     """Return the page as HTML; home: the folder it will lie in, for links to files.
 
-    images: where its figures are written; without, they are in the page.
+    images: where its figures are written, or lie; without, they are in the page.
     """
     environment = Environment(
         loader=PackageLoader("signkin.report"),

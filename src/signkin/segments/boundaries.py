@@ -56,7 +56,7 @@ def boundary_hits(predicted_s: ArrayLike, reference_s: ArrayLike, tolerance_s: f
         raise SignkinError(
             f"a tolerance of {tolerance_s:g} s", place="boundaries", expected="0 or more"
         )
-    p, r = _times(predicted_s), _times(reference_s)
+    p, r = _times(predicted_s).tolist(), _times(reference_s).tolist()  # numbers, quick to compare
     most = tolerance_s + SLACK_S
     hits = i = j = 0
     while i < len(p) and j < len(r):

@@ -32,7 +32,7 @@ def frame_labels(
     frames = int(np.rint(span_s[1] * rate_hz)) - first + 1
     labels = np.full(frames, BOUNDARY, dtype=np.int8)
     edges = np.clip(np.rint(segments * rate_hz).astype(int) - first, 0, frames - 1)
-    for start, end in edges:
+    for start, end in edges.tolist():
         labels[start + 1 : end] = SIGN
     labels[edges.ravel()] = BOUNDARY
     return labels
@@ -108,12 +108,13 @@ def _greedy(
     i: NDArray[np.int64], j: NDArray[np.int64], cost: NDArray[np.float64]
 ) -> NDArray[np.int64]:
     """Return which pairs are taken: the cheapest first, each side once; ties by i, then j."""
+    order = np.lexsort((j, i, cost))
     kept: list[int] = []
     used_i: set[int] = set()
     used_j: set[int] = set()
-    for k in np.lexsort((j, i, cost)):
-        if i[k] not in used_i and j[k] not in used_j:
-            used_i.add(int(i[k]))
-            used_j.add(int(j[k]))
-            kept.append(int(k))
+    for k, one, other in zip(order.tolist(), i[order].tolist(), j[order].tolist(), strict=True):
+        if one not in used_i and other not in used_j:
+            used_i.add(one)
+            used_j.add(other)
+            kept.append(k)
     return np.array(kept, dtype=np.int64)

@@ -83,11 +83,14 @@ def covering(predicted: Floats, reference: Floats, span_s: tuple[float, float]) 
     by its length, with the intersection over union of the predicted piece that fits it best
     (Arbelaez et al. 2011; van den Burg & Williams 2020, eq. 7).
     """
-    a, b = _pieces(predicted, span_s), _pieces(reference, span_s)
-    shared = np.minimum(b[:, None, 1], a[:, 1]) - np.maximum(b[:, None, 0], a[:, 0])
-    whole = np.maximum(b[:, None, 1], a[:, 1]) - np.minimum(b[:, None, 0], a[:, 0])
-    best = np.max(np.clip(shared, 0, None) / whole, axis=1)
-    return float(np.average(best, weights=b[:, 1] - b[:, 0]))
+    a, b = _cuts(predicted, span_s), _cuts(reference, span_s)
+    both = np.unique(np.concatenate([a, b]))
+    lengths, middles = np.diff(both), (both[:-1] + both[1:]) / 2
+    i, j = (np.searchsorted(cuts, middles) - 1 for cuts in (a, b))  # pieces that share this time
+    whole = np.maximum(a[i + 1], b[j + 1]) - np.minimum(a[i], b[j])
+    best = np.zeros(len(b) - 1)
+    np.maximum.at(best, j, lengths / whole)
+    return float(np.average(best, weights=np.diff(b)))
 
 
 def share_of_segments(predicted: Floats, reference: Floats) -> float:
@@ -102,9 +105,8 @@ def _inside(times: Floats, segments: Floats) -> NDArray[np.bool_]:
     return np.asarray(started > ended)
 
 
-def _pieces(segments: Floats, span_s: tuple[float, float]) -> Floats:
-    cuts = np.unique(np.clip(np.append(segments.ravel(), span_s), *span_s))
-    return np.column_stack([cuts[:-1], cuts[1:]])
+def _cuts(segments: Floats, span_s: tuple[float, float]) -> Floats:
+    return np.unique(np.clip(np.append(segments.ravel(), span_s), *span_s))
 
 
 def _ratio(part: float, whole: float) -> float:

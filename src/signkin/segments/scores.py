@@ -13,6 +13,7 @@ from signkin.annotation import Interval
 from signkin.errors import SignkinError
 from signkin.segments.boundaries import Hits, boundary_hits, hausdorff_s, offsets_s
 from signkin.segments.frames import RATE_HZ, boundary_f1, frame_labels, mean_f1, segment_f1
+from signkin.segments.gamma import DISORDER, disorder, gamma_of
 from signkin.segments.lengths import covering, overlap, share_of_segments
 
 Floats = NDArray[np.float64]
@@ -84,10 +85,11 @@ def score(
         _scores(shuffled(a, span, generator), b, span, tolerances_s, rate_hz)
         for _ in range(draws if len(a) else 0)
     ]
+    found, drawn = gamma_of(found, drawn)
     rows = []
     for key, value in found.items():
         chance = np.array([d[key] for d in drawn])
-        rows.append([key[0], key[1], value, key[2], *_interval(chance)])
+        rows.append([key[0], key[1], value, key[2], *interval_of(chance)])
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -131,6 +133,7 @@ def _scores(
     out["IoU", "sign", ""] = shared.iou_sign
     out["IoU", "transition", ""] = shared.iou_transition
     out["Cohen's kappa", "sign", ""] = shared.kappa
+    out[DISORDER] = disorder(a, b)
     out["covering", "all", ""] = covering(a, b, span)
     out["segments, share of the reference's", "sign", ""] = share_of_segments(a, b)
     p, r = (frame_labels(side, span, rate_hz) for side in (a, b))
@@ -145,7 +148,8 @@ def _median(values: Floats) -> float:
     return float(np.median(there)) if len(there) else float("nan")
 
 
-def _interval(draws: Floats) -> tuple[float, float, float]:
+def interval_of(draws: Floats) -> tuple[float, float, float]:
+    """Return mean, 2.5 % and 97.5 % quantile of what chance gave; NaN without draws."""
     there = draws[np.isfinite(draws)]
     if not len(there):
         return float("nan"), float("nan"), float("nan")

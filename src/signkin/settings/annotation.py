@@ -43,6 +43,22 @@ class SignTiers(Section):
         return self
 
 
+class Annotator(Section):
+    """Where a further annotator's signs are; one of the two keys at least."""
+
+    file: Text | None = key(
+        None, "Annotation file, with `{recording}`, `{part}` or `{signer}`; the recording's own "
+        "if missing.",
+    )  # fmt: skip
+    tier: Tier | None = key(None, "Tier of this annotator's signs; sign_tier if missing.")
+
+    @model_validator(mode="after")
+    def _one_at_least(self) -> Annotator:
+        if self.file is None and self.tier is None:
+            raise ValueError("file or tier, or both")
+        return self
+
+
 class Gloss(Section):
     """How glosses are made from labels; the label as written is kept beside."""
 
@@ -72,6 +88,9 @@ class SrtOptions(TextOptions):
     speaker_before_colon: bool = key(False, "`ANN: text` is a cue of the tier ANN.")
 
 
+Names = Annotated[tuple[str, ...], Field(strict=False)]
+
+
 class FrameLabelOptions(TextOptions):
     """Options of labels of frames."""
 
@@ -82,7 +101,10 @@ class FrameLabelOptions(TextOptions):
     first_frame: Annotated[int, Field(ge=0)] = key(0, "Number of the first frame.")
     header: bool = key(True, "Whether columns have names, which are tiers.")
     blank: Annotated[tuple[str, ...], Field(strict=False)] = key(("",), "Labels that are no sign.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
+    ignore: Names = key((), "Columns whose names mean something else here.")
 
 
 class CsvOptions(TextOptions):
@@ -97,29 +119,60 @@ class CsvOptions(TextOptions):
     label_column: Text = key("label", "Column of labels.")
     tier_column: Text | None = key(None, "Column of tiers.")
     participant_column: Text | None = key(None, "Column of participants.")
-    time_unit: Literal["s", "ms", "frames", "timecode"] = key("s", "What times are.")
+    time_unit: Literal["s", "ms", "frames", "timecode"] | None = key(None, "What times are; s.")
     end_inclusive: bool = key(False, "Whether the end is the last frame of the interval.")
-    separator: Letter | None = key(None, "Between cells; found out where missing.")
+    separator: Letter | Literal["comma", "semicolon", "tab"] | None = key(
+        None, "Between cells; found out where missing."
+    )
+    ignore: Names = key((), "Columns whose names mean something else here.")
     decimal: Literal[".", ","] | None = key(None, "The decimal sign, where it is not plain.")
 
 
+class ElanTabOptions(TextOptions):
+    """Options of ELAN's tab-delimited text."""
+
+    media_offset: Literal["added", "not_added"] | None = key(
+        None, "Whether ELAN added a medium's offset to the times."
+    )
+
+
+class VttOptions(TextOptions):
+    """Options of WebVTT."""
+
+    timestamp_map: Literal["ignore"] | None = key(None, "Where cues count in a stream's clock.")
+
+
+class C3dEventOptions(Section):
+    """Options of events of C3D files."""
+
+    start_event: Text | None = key(None, "Label of the events at which signs start.")
+    end_event: Text | None = key(None, "Label of the events at which they end.")
+    blank: Annotated[tuple[str, ...], Field(strict=False)] = key((), "Labels that end a sign.")
+    event_clock: Literal["capture", "first_frame"] | None = key(
+        None, "Where events count from, if the file does not start at frame 1."
+    )
+    header: Literal["check", "ignore"] = key("check", "Whether the header must agree.")
+    encoding: Text = key("utf-8", "Of labels.")
+
+
 OPTIONS: dict[str, type[Section]] = {
+    "c3d_events": C3dEventOptions,
     "csv": CsvOptions,
     "eaf": EafOptions,
-    "elan_tab": TextOptions,
+    "elan_tab": ElanTabOptions,
     "frame_labels": FrameLabelOptions,
     "srt": SrtOptions,
     "textgrid": TextOptions,
-    "vtt": TextOptions,
+    "vtt": VttOptions,
 }
 
 
 class Annotation(Section):
     """How annotation files are read."""
 
-    format: Literal["csv", "eaf", "elan_tab", "frame_labels", "srt", "textgrid", "vtt"] = key(
-        text="Format of the annotation files."
-    )
+    format: Literal[
+        "c3d_events", "csv", "eaf", "elan_tab", "frame_labels", "srt", "textgrid", "vtt"
+    ] = key(text="Format of the annotation files.")
     sign_tier: Tier | None = key(None, "Tier of the signs; or sign_tiers.")
     sign_tiers: SignTiers | None = key(None, "Tiers of the signs by hand.")
     utterance_tier: Tier | None = key(
@@ -129,6 +182,10 @@ class Annotation(Section):
         None, "A pause longer than this ends an utterance (where no tier tells).", unit="s"
     )
     translation_tier: Tier | None = key(None, "Tier with translations, for Table 1.")
+    annotators: dict[Text, Annotator] = key(
+        {}, "Further annotators of the same signing, by name; the page of the corpus shows how far "
+        "they agree.",
+    )  # fmt: skip
     gloss: Gloss | None = key(None, "Rules for glosses.")
     options: dict[str, Any] = key(
         {}, "What the format's reader wants to know besides (docs/adding-a-corpus.md)."

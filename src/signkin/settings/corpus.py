@@ -18,8 +18,9 @@ WebAddress = Annotated[str, Field(pattern="^https?://[^ ]+$")]
 
 
 MotionFormat = Literal[
-    "bvh", "c3d", "csv", "deeplabcut_csv", "kinect", "kinect_v2", "mediapipe_csv", "motive_csv",
-    "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv", "trc", "tsd", "vicon_csv",
+    "bvh", "c3d", "csv", "deeplabcut_csv", "deeplabcut_h5", "kinect", "kinect_v2",
+    "mediapipe_csv", "motive_csv", "npy", "openpose_csv", "openpose_json", "pose", "qualisys_tsv",
+    "trc", "tsd", "vicon_csv",
 ]  # fmt: skip
 Unit = Literal["m", "cm", "mm", "inch", "ft", "px"] | Positive
 
@@ -127,9 +128,10 @@ class CorpusDescription(Section):
     description: str = key("", "What was recorded, how, with whom.")
     licence: str = key(text="Licence of the recordings.")
     citation: str = key(text="How to cite it.")
-    simulator: Literal["lsf-sim", "isl-sim"] | None = key(
-        None, "The simulator that makes this corpus; leave it out for real recordings."
-    )
+    simulator: Literal["lsf-sim", "isl-sim", "signkin simulate"] | None = key(
+        None, "What makes this corpus: a rule of the run, or `signkin simulate`, whose files lie "
+        "with its description; leave it out for real recordings."
+    )  # fmt: skip
     data_folder: Annotated[Text, AfterValidator(_plain_name)] | None = key(
         None, "Folder of the recordings below data_dir; the corpus's own name where missing."
     )
@@ -149,6 +151,10 @@ class CorpusDescription(Section):
     left_handed: Annotated[tuple[Text, ...], Field(strict=False)] = key(
         (), "Signers whose dominant hand is the left one."
     )
+    tagged_hand: Literal["right", "left"] | None = key(
+        None, "The hand that the tags of signs are of, where one tier has those of one hand alone: "
+        "they are held against this hand's speed minima.",
+    )  # fmt: skip
     annotation: Annotation | None = key(
         None, "How annotation files are read; without it the corpus has no tags."
     )

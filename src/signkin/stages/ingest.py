@@ -13,7 +13,8 @@ import pandas as pd
 from signkin import tables
 from signkin.annotation import Annotation, Interval, LeftOut
 from signkin.annotation_rules import signs_of_hands
-from signkin.corpus import Corpus, Entry, check_checksum, data_file
+from signkin.corpus import Corpus, Entry, data_file
+from signkin.corpus_checksums import check_checksum
 from signkin.errors import SignkinError
 from signkin.io import read_annotation, read_recording, wants_rate
 from signkin.kinematics.rotations import with_limb_frames
@@ -53,7 +54,7 @@ def ingest(corpus: Corpus, folder: Path, entries: Sequence[Entry]) -> Ingested:
         try:
             for name in (entry.motion, entry.annotation):
                 if name and name not in checked:
-                    if corpus.simulator is None:
+                    if not corpus.made_by_run:
                         data_file(corpus, folder, entry, name)
                     check_checksum(corpus, folder, name)
                     checked.add(name)

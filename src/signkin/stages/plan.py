@@ -83,7 +83,7 @@ class Plan:
         """The corpus that each simulator makes in this run: simulator -> corpus."""
         out: dict[str, str] = {}
         for name, corpus in self.corpora.items():
-            if corpus.simulator is None:
+            if corpus.simulator is None or not corpus.made_by_run:
                 continue
             if corpus.simulator in out:
                 raise SignkinError(
@@ -122,6 +122,15 @@ class Plan:
         """Return the annotation files of a corpus."""
         names = dict.fromkeys(e.annotation for e in self.corpora[corpus].entries if e.annotation)
         return self._there(corpus, list(names))
+
+    @property
+    def with_annotators(self) -> list[str]:
+        """Corpora that name several annotators."""
+        return [name for name in self.tagged if self.corpora[name].annotators]
+
+    def annotator_files(self, corpus: str) -> list[str]:
+        """Return the annotation files of the further annotators of a corpus that are there."""
+        return self._there(corpus, self.corpora[corpus].annotator_files())
 
     def _there(self, corpus: str, names: list[str]) -> list[str]:
         """Return the paths of data files; a corpus that skips recordings may lack some."""
@@ -181,7 +190,7 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         if folder is None:
             missing[name] = _why_missing(corpus, data_dir)
             continue
-        if corpus.simulator is None:
+        if not corpus.made_by_run:
             check_files(corpus, folder)
         if corpus.declared_rate_hz is not None:
             check_rate(settings, corpus.declared_rate_hz, name, "config.yaml")

@@ -24,11 +24,14 @@ def bootstrap(
     draws: int,
     alpha: float,
     rng: np.random.Generator,
+    of_many: Callable[[Rows], Array] | None = None,
 ) -> tuple[Array, Array]:
     """Return the percentile interval of a statistic of row numbers, by resampling units.
 
     units: one label a row; rows of one label are drawn together (all different: single rows).
     A draw for which the statistic cannot be computed (NaN) is left out of the quantiles.
+    of_many: the statistic of many draws at once, (draws, rows) -> (draws,): taken for single rows,
+    whose draws are all as long.
     """
     labels = np.unique(np.asarray(units, dtype=object).astype(str), return_inverse=True)[1]
     members = [np.flatnonzero(labels == i) for i in range(labels.max() + 1)]
@@ -36,7 +39,11 @@ def bootstrap(
     def drawn(chosen: Rows) -> Array:
         return np.asarray(statistic(np.concatenate([members[i] for i in chosen])), dtype=float)
 
-    values = np.stack([drawn(rng.integers(0, len(members), len(members))) for _ in range(draws)])
+    n = len(members)
+    if of_many is not None and n == len(labels):
+        values = of_many(np.concatenate(members)[rng.integers(0, n, (draws, n))])
+    else:
+        values = np.stack([drawn(rng.integers(0, n, n)) for _ in range(draws)])
     low, high = np.nanquantile(values, [alpha / 2, 1 - alpha / 2], axis=0)
     return low, high
 
@@ -77,7 +84,10 @@ def correlations(
                 x, y = stats.rankdata(x), stats.rankdata(y)
             return float(np.corrcoef(x, y)[0, 1])
 
-        low, high = bootstrap(of, units, draws, alpha, rng)
+        def of_many(rows: Rows, ranks: bool = test == SPEARMAN) -> Array:
+            return _correlations(distance[rows], duration[rows], ranks)
+
+        low, high = bootstrap(of, units, draws, alpha, rng, of_many)
         r, p = function(distance, duration)
         out.append(
             Finding(
@@ -98,6 +108,17 @@ def correlations(
             )
         )
     return out
+
+
+def _correlations(x: Array, y: Array, ranks: bool) -> Array:
+    """Return the correlation of each row of x with that of y; NaN where one of them is constant."""
+    constant = (np.ptp(x, axis=1) == 0) | (np.ptp(y, axis=1) == 0)
+    if ranks:
+        x, y = stats.rankdata(x, axis=1), stats.rankdata(y, axis=1)
+    x, y = (v - v.mean(axis=1, keepdims=True) for v in (x, y))
+    with np.errstate(invalid="ignore"):
+        r = (x * y).sum(axis=1) / np.sqrt((x * x).sum(axis=1)) / np.sqrt((y * y).sum(axis=1))
+    return np.where(constant, np.nan, np.clip(r, -1, 1))
 
 
 def isochrony(distance: Array, duration: Array, comparison: str, alpha: float) -> Finding:

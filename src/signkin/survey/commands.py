@@ -126,7 +126,7 @@ def list_corpora(data: str | None) -> int:
             )
             if yes
         ]  # fmt: skip
-        state = "made by the run" if corpus.simulator else "there" if there else "no data"
+        state = "made by the run" if corpus.made_by_run else "there" if there else "no data"
         print(f"{name:14s} {len(corpus.entries):5d} recordings  {state:15s} "
               f"{', '.join(kinds) or 'no tags':26s} {corpus.settings['language']}")  # fmt: skip
     return 0
@@ -167,7 +167,14 @@ def init_corpus(folder: Path, name: str | None, into: Path | None) -> int:
     into.mkdir(parents=True, exist_ok=True)
     (into / "corpus.yaml").write_text(found.text, encoding="utf-8")
     (into / "recordings.csv").write_text(found.recordings, encoding="utf-8")
-    print(f"Written: {into / 'corpus.yaml'}, {into / 'recordings.csv'}. To answer in them:")
+    written = [into / "corpus.yaml", into / "recordings.csv"]
+    signs = into / "signs.csv"
+    if found.signs and not signs.exists():
+        signs.write_text(found.signs, encoding="utf-8")
+        written.append(signs)
+        kinds = found.signs.count("\n") - 1
+        found.asked.append(f"types of {kinds} glosses (signs.csv; empty: typed from motion)")
+    print(f"Written: {', '.join(map(str, written))}. To answer in them:")
     for i, question in enumerate(found.asked):
         print(f"{i + 1:3d}. {question}")
     print(f"Then: signkin corpus check {name} --data {folder.resolve().parent}")

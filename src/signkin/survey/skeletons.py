@@ -63,7 +63,9 @@ def joint_map(names: Sequence[str]) -> dict[str, str]:
 
 def _words(name: str) -> list[str]:
     """Return the words of a name, lower case, without a subject's or a component's prefix."""
-    bare = re.split(r"[:.]", name)[-1]
+    bare = name.rpartition(":")[2]
+    component, _, point = bare.rpartition(".")
+    bare = point if re.search("landmarks|keypoints", component, re.IGNORECASE) else bare
     side = re.match(r"(LEFT|RIGHT)_HAND_LANDMARKS\.", name)
     bare = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", bare)
     words = re.findall(r"[a-z]+|\d+", bare.lower())
@@ -84,7 +86,7 @@ def _unsided(words: list[str], hand: str) -> str:
     # Plug-in Gait and OpenPose: RSHO, LWrist.
     letter = _SIDES[hand][1]
     known = {word for group in PARTS.values() for word in group}
-    if whole.startswith(letter) and whole[1:] in known | {"wra", "wrb"}:
+    if whole.startswith(letter) and whole[1:] in known | {"wra", "wrb"} and whole != "rear":
         return whole[1:]
     return ""
 

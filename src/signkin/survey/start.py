@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
 from signkin.io import read_annotation, read_recording
-from signkin.io.landmarks import MEDIAPIPE_HAND, MEDIAPIPE_POSE
-from signkin.io.registry import METRES_PER
+from signkin.io.landmarks import LISTS, MEDIAPIPE_HAND, MEDIAPIPE_POSE
+from signkin.io.registry import CONVERTED, METRES_PER
 from signkin.joints import HANDS
 from signkin.kinematics.noise import measure_noise
 from signkin.kinematics.plausibility import LIMITS
@@ -32,7 +32,7 @@ from signkin.survey.skeletons import joint_map
 # Formats by suffix, tried in order: the first that reads the file is taken.
 MOTION: dict[str, tuple[str, ...]] = {
     ".bvh": ("bvh",), ".c3d": ("c3d",), ".trc": ("trc",), ".pose": ("pose",), ".tsd": ("tsd",),
-    ".npy": ("npy",), ".npz": ("npy",),
+    ".npy": ("npy",), ".npz": ("npy",), ".h5": ("deeplabcut_h5",),
     ".csv": ("vicon_csv", "motive_csv", "deeplabcut_csv", "mediapipe_csv", "openpose_csv", "csv"),
     ".tsv": ("qualisys_tsv", "csv"),
 }  # fmt: skip
@@ -53,11 +53,13 @@ GUESSES: dict[str, Any] = {
 @dataclass
 class Start:
     """What was found out of a folder. lines: corpus.yaml. recordings: recordings.csv.
+    signs: signs.csv, empty where there are no tags.
     asked: what a person has to say, a sentence each."""
 
     name: str
     lines: list[str] = field(default_factory=list)
     recordings: str = ""
+    signs: str = ""
     asked: list[str] = field(default_factory=list)
 
     @property
@@ -89,7 +91,8 @@ def start(folder: Path, name: str) -> Start:
     _noise(out, sample, known)
     _motion_section(out, format, probe, known, columns)
     if tags:
-        _tag_section(out, tag_format, list(tags.values()))
+        tiers = _tag_section(out, tag_format, list(tags.values()))
+        out.signs = signs_table(tag_format, list(tags.values()), tiers)
     out.recordings = _recordings(folder, motion, tags)
     lone = [m.name for m in motion if tags and m not in tags]
     if lone:
@@ -117,7 +120,10 @@ def _motion(files: Sequence[Path], folder: Path) -> tuple[list[Path], str, Probe
         f"no motion that can be read{'; the last try: ' + said[-1] if said else ''}",
         file=folder,
         expected=f"files of {listed(MOTION, 20)}",
-        todo="docs/adding-a-corpus.md tells every format and its options.",
+        todo=next(
+            (CONVERTED[p.suffix.lower()] for p in files if p.suffix.lower() in CONVERTED),
+            "docs/adding-a-corpus.md tells every format and its options.",
+        ),
     )
 
 
@@ -139,6 +145,8 @@ def _probe(path: Path, format: str) -> Probe:
         spec["joints"] = table_joints(path)
     if format == "pose":
         spec["joints"] = _world_joints()
+    if format == "npy":
+        return _probe_landmarks(path, format)
     try:
         probe = _read_as_asked(path, format, spec)
     except SignkinError as error:
@@ -149,6 +157,18 @@ def _probe(path: Path, format: str) -> Probe:
         named = tuple(spec["joints"][joint] for joint in probe.recording.joints)
         return replace(probe, recording=replace(probe.recording, joints=named))
     return probe
+
+
+def _probe_landmarks(path: Path, format: str) -> Probe:
+    """Read key points without names; as many as a tracker gives are taken for that tracker's."""
+    probe = _read_as_asked(path, format, {})
+    count = len(probe.recording.joints)
+    fits = [name for name, landmarks in LISTS.items() if len(landmarks) == count]
+    if not fits:
+        return probe
+    # Two hands' lists are of one length: the first is as good for the names of wrist and fingers.
+    named = _read_as_asked(path, format, {"landmarks": fits[0]})
+    return replace(named, guessed={"landmarks": fits[0], **named.guessed})
 
 
 def _read_as_asked(path: Path, format: str, spec: Mapping[str, Any]) -> Probe:
@@ -166,6 +186,13 @@ def _read_as_asked(path: Path, format: str, spec: Mapping[str, Any]) -> Probe:
 def _wanted(error: SignkinError, given: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a reader's error asks for and has not been given yet; empty where it is else."""
     told = f"{error.place} {error.found} {error.todo}"
+    if "clock: first_frame" in told and "clock" not in given:
+        return {"clock": "first_frame"}
+    steps = re.search(r"steps of (\S+) to (\S+) s", error.found)
+    if steps and "resample_hz" in told and "resample_hz" not in given:
+        rate = float(f"{2 / (float(steps[1]) + float(steps[2])):.3g}")
+        column = re.search(r"\{time_column: ([^}]+)\}", told)
+        return {"resample_hz": rate, **({"time_column": column[1]} if column else {})}
     said = re.search(r"the file says ([0-9.]+) Hz", error.found)
     if said and given.get("rate_hz") == RATE_HZ:
         return {"rate_hz": float(said[1])}
@@ -268,12 +295,20 @@ def _options(out: Start, guessed: Mapping[str, Any]) -> None:
     asked = {
         "image_size": "size of the video's image in pixels, [width, height]",
         "incomplete": "the files have fewer frames than they say: is that meant?",
+        "clock": "the files' times do not start at 0: do tags count from the first frame?",
+        "resample_hz": "the files' times are uneven; the rate to resample them to",
+        "landmarks": "whose landmarks are these? (by their number)",
+        "time_column": "",
     }
     wanted = [name for name in asked if name in guessed]
     if wanted:
         out.lines.append("  options:")
     for name in wanted:
-        out.ask(f"    {name}: {yaml_value(guessed[name])}", asked[name])
+        line = f"    {name}: {yaml_value(guessed[name])}"
+        if asked[name]:
+            out.ask(line, asked[name])
+        else:
+            out.lines.append(line)
 
 
 def _unit(sample: Recording, known: Mapping[str, str]) -> tuple[str, str]:
@@ -322,8 +357,37 @@ def _axis(vector: NDArray[np.float64]) -> str:
     return ("-" if middle[largest] < 0 else "") + "xyz"[largest]
 
 
-def _tag_section(out: Start, format: str, files: Sequence[Path]) -> None:
-    """Describe the tiers of the first annotation, and choose by name and length."""
+def signs_table(format: str, files: Sequence[Path], tiers: Sequence[str]) -> str:
+    """Return signs.csv: the glosses of tiers that may hold signs, the commonest first.
+
+    Their types are left empty, which is a question; the column source says where they stand.
+    """
+    counts: Counter[str] = Counter()
+    where: dict[str, Counter[str]] = {}
+    for path in files:
+        try:
+            annotation = read_annotation(path, format=format)
+        except SignkinError:
+            continue  # `check` tells of it
+        for interval in annotation.intervals:
+            gloss = " ".join(interval.label.split())
+            if gloss and interval.tier in tiers:
+                counts[gloss] += 1
+                where.setdefault(gloss, Counter())[interval.tier] += 1
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["gloss", "hands", "symmetric", "source"])
+    for gloss, _ in counts.most_common():
+        told = ", ".join(f"{tier}: {n}" for tier, n in where[gloss].most_common())
+        writer.writerow([gloss, "", "", f"ASK: its type? {told}"])
+    return text.getvalue()
+
+
+def _tag_section(out: Start, format: str, files: Sequence[Path]) -> list[str]:
+    """Describe the tiers of the first annotation, choose by name and length; return the signs'.
+
+    Where no name tells the tier of the signs, those that are no sentences and translations are.
+    """
     annotation = read_annotation(files[0], format=format)
     tiers = {t: [i.end_s - i.start_s for i in annotation.tier(t)] for t in annotation.tiers}
     signs = sorted(
@@ -344,6 +408,8 @@ def _tag_section(out: Start, format: str, files: Sequence[Path]) -> None:
     translations = [t for t in rest if TRANSLATION_TIER.search(t)]
     if translations:
         out.lines.append(f"  translation_tier: {yaml_value(translations[0])} # by its name")
+    named = [tier for tier in signs if SIGN_TIER.search(tier)]
+    return [t for t in named or signs if t not in (*sentences, *translations)] or signs[:1]
 
 
 def _recordings(folder: Path, motion: Sequence[Path], tags: Mapping[Path, Path]) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from signkin.tables import audit, corpora, endres2013, naert2017, owner
+from signkin.tables import audit, corpora, endres2013, naert2017, owner, segments
 from signkin.tables.schema import Table
 
 SUBJECTS: dict[str, tuple[Table, ...]] = {
     "Corpora": corpora.TABLES,
     "Naert et al. 2017": naert2017.TABLES,
+    "Segmentations compared": segments.TABLES,
     "Endres et al. 2013": endres2013.TABLES,
     "Audit": audit.TABLES,
     "Report": owner.TABLES,

@@ -15,6 +15,7 @@ from signkin.io.wide_csv import column_map
 from signkin.settings import Settings
 from signkin.stages.ingest import ingest
 from signkin.studies.naert2017.settings import SynthesisSettings
+from signkin.studies.naert2017.synthesis import readings
 from signkin.studies.naert2017.synthesis.comparison import comparison
 from signkin.studies.naert2017.synthesis.database import sign_database
 from signkin.studies.naert2017.synthesis.duration_models import timing
@@ -168,3 +169,15 @@ def test_blending_the_captured_material_in_true_time_has_no_error(dgs, settings)
     assert list(errors.columns) == tables.TABLES["synthesis_summary"].names()
     assert (errors["low"] <= errors["mean"] + 1e-12).sum() == errors["mean"].notna().sum()
     assert errors.equals(summary(rows, corpus, 200, 1))
+
+
+def test_a_list_is_nearer_by_the_chain_than_from_sign_to_sign(dgs, settings, monkeypatch):
+    monkeypatch.setattr(readings, "LISTS", 40)
+    monkeypatch.setattr(readings, "MOST", 4)
+    found = readings.synthesis_readings(dgs[2], settings, 1)
+    assert list(found.columns) == tables.TABLES["readings_synthesis"].names()
+    chosen = found[found["rule"] == "retrieval"].set_index("reading")
+    assert chosen["printed"].to_dict() == {"chain": "no", "greedy": "yes"}
+    assert (chosen["n"] == 40).all() and chosen.loc["chain", "mean"] < chosen.loc["greedy", "mean"]
+    errors = found[found["measure"] == "position error"].set_index("reading")["mean"]
+    assert errors["slerp"] == errors["linear"] > 0  # positions alone are mixed here

@@ -218,7 +218,7 @@ def test_figures_5_to_7_draw_each_group(drawn, made):
         assert marks(ax) == points_of(rows[rows["series"] == name])
         assert title.endswith("(n = 2)")
     six = drawn("fig06")
-    top, bottom = panels(six.figure)
+    top, bottom, over = panels(six.figure)
     assert bars(top) == pytest.approx(
         sorted(six.data.query("panel == 'order posterior'")["y"]), abs=1e-8
     )
@@ -232,6 +232,15 @@ def test_figures_5_to_7_draw_each_group(drawn, made):
     assert {y for _, y in points_of(six.data.query("panel == 'ratio'"))} == {
         y for _, y in marks(bottom) if not np.isnan(y)
     }
+    assert marks(over) >= {
+        (round(x + 0.06 * (i - 0.5), 9), round(y, 9))
+        for i, column in enumerate(("over_chance", "over_shifted"))
+        for x, y in zip(own["order"], own[column], strict=True)
+        if np.isfinite(y)
+    }
+    chance = six.data.query("panel == 'ratio by chance' and series == 'boundaries shifted'")
+    assert chance["y"].tolist() == pytest.approx(own["shifted_hpfpps"].tolist(), nan_ok=True)
+    assert "hit rate less that of chance (greatest against Poisson events: order " in six.caption
     seven = drawn("fig07")
     (ax,) = panels(seven.figure)
     assert bars(ax) == pytest.approx(sorted(seven.data["y"]), abs=1e-8)

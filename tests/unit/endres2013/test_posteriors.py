@@ -210,6 +210,7 @@ def test_rows_are_those_of_the_table_and_hits_are_against_the_own_truth():
     assert row["hit_rate"] == 0.5
     assert row["false_positives_per_s"] == pytest.approx(1 / (BINS * BIN_S))
     assert row["hpfpps"] == pytest.approx(0.5 * BINS * BIN_S)
+    assert 0 < row["shifted_hits"] < 2 and row["shifted_sd"] > 0
     assert (row["sign"], row["signer"], row["repetition"]) == ("wave", "s2", 1)
     row = third.set_index("order").loc[1]
     assert (row["hits"], row["misses"], row["false_positives"]) == (2, 0, 0)

@@ -155,6 +155,23 @@ def test_hit_rates_by_hand(binning):
     assert (rates.loc[~finite, "note"] != "").all()
 
 
+def test_hit_rates_stand_beside_two_kinds_of_chance(binning):
+    told = binning.assign(shifted_hits=0.5, shifted_sd=0.5)
+    rates, _ = hit_rates("c", told, truths(), SETTINGS, 7)
+    whole = rates[(rates["dataset"] == POWERLAW) & (rates["signer"] == ALL)].set_index("order")
+    for order, hit in ((2, 2.5 / 3), (3, 2 / 3)):
+        row = whole.loc[order]
+        assert row["over_chance"] == pytest.approx(hit - row["chance_hit_rate"])
+        assert row["chance_hpfpps"] == pytest.approx(
+            row["chance_hit_rate"] / row["false_positives_per_s"]
+        )
+        assert row["shifted_hit_rate"] == pytest.approx(0.25)
+        assert row["over_shifted"] == pytest.approx(hit - 0.25)
+        assert 0 <= row["shifted_low"] < 0.25 < row["shifted_high"]
+    # 16 boundaries found at order 2, of which 1.5 hit by chance, in 5 s.
+    assert whole.loc[2, "shifted_hpfpps"] == pytest.approx((1.5 / 6) / ((16 - 1.5) / 5))
+
+
 def test_chance_is_near_its_closed_form_and_within_its_band(binning):
     rates, lines = hit_rates("c", binning, truths(), SETTINGS, 7)
     assert list(lines.columns) == tables.TABLES["chance_lines"].names()

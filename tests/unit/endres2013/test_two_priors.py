@@ -163,4 +163,4 @@ def test_the_report_shows_both_and_whether_the_noise_fits(both, tmp_path):
         "m",
     )  # fmt: skip
     (one,) = report_beside.learnt(tmp_path)
-    assert one.frame["noise_um"].tolist() == pytest.approx([20.0])
+    assert one.frame["noise_mm"].tolist() == pytest.approx([0.02])

@@ -46,6 +46,14 @@ def test_a_panel_for_each_tested_model_and_none_empty():
     assert titles == ["MEAN (baseline)", "SIMPLE"]
 
 
+def test_without_a_prediction_there_is_a_sentence():
+    with paper_style():
+        figure = draw_predictions(predictions([0.2, 0.3, 0.4]).head(0))
+        told = [text.get_text() for ax in figure.axes for text in ax.texts]
+        plt.close(figure)
+    assert told == ["No model predicts a transition that it did not see: too few transitions."]
+
+
 @pytest.mark.parametrize("theta", [np.array([0.1, 0.6, 0.3]), None])
 def test_the_surface_has_units_and_all_transitions(theta):
     with paper_style():

@@ -29,8 +29,12 @@ def made(monkeypatch):
         {"recording": "r", "hand": "right", "minimum_s": signs.ravel() + 0.02,
          "prominence_m_per_s": 0.5}
     )  # fmt: skip
-    corpus = SimpleNamespace(name="c", unit="m")
-    return signs, intervals, posteriors.boundary_posteriors(corpus, ["r"], intervals, minima)
+    corpus = SimpleNamespace(
+        name="c", unit="m", by_name={"r": None}, dominant_hand=lambda entry: "right"
+    )
+    types = pd.DataFrame({"recording": "r", "sign": range(1, 21), "type": ["00", "11"] * 10})
+    table = posteriors.boundary_posteriors(corpus, ["r"], intervals, minima, types, 6.0)
+    return signs, intervals, table
 
 
 def test_a_row_a_tag_and_hand(made):
@@ -43,7 +47,9 @@ def test_a_row_a_tag_and_hand(made):
     assert (right["mean_s"] - right["manual_s"]).to_numpy() == pytest.approx(0.02, abs=0.005)
     order = right[["low90_s", "low50_s", "mean_s", "high50_s", "high90_s"]].to_numpy()
     assert (np.diff(order) > 0).all()
+    assert right["acts"].all()
     left = table[table["hand"] == "left"]
+    assert left["acts"].tolist() == [False, False, True, True] * 10
     assert left["note"].str.contains("no speed minimum").all()
     assert left["note"].str.contains(posteriors.NOT_LEARNT).all()
 

@@ -11,7 +11,13 @@ from signkin.settings import Settings
 from signkin.statistics.nulls import MEAN_SHARE, MEDIAN, SHARE
 from signkin.studies.naert2017.tag_chance import tag_chance
 
-CORPUS = SimpleNamespace(name="c")
+
+def corpus_of(tiers, **told):
+    return SimpleNamespace(name="c", settings=told, entries=["e"], by_name={"r": "e"},
+                           tiers_of=lambda entry: {"sign": tiers})  # fmt: skip
+
+
+CORPUS = corpus_of({"both": "t"})
 REFINEMENT = Settings(refinement={"draws": 100}).refinement
 
 
@@ -25,8 +31,8 @@ def frames(signs, minima):
     return about, intervals, pd.DataFrame(rows, columns=["recording", "hand", "minimum_s"])
 
 
-def found(signs, minima):
-    return tag_chance(CORPUS, *frames(signs, minima), ["r"], REFINEMENT, 1)
+def found(signs, minima, corpus=CORPUS):
+    return tag_chance(corpus, *frames(signs, minima), ["r"], REFINEMENT, 1)
 
 
 def made():
@@ -51,6 +57,20 @@ def test_a_hand_whose_minima_are_the_tags_and_one_whose_are_not():
     paper = table[(table["measure"] == SHARE) & np.isclose(table["window_s"], 0.15)]
     assert len(paper) == 16  # the paper's window is among them
     pd.testing.assert_frame_equal(table, found(signs, minima))
+
+
+def test_a_tier_of_one_hand_is_held_against_that_hand_alone():
+    signs, minima = made()
+    whole = found(signs, minima)
+    for corpus in (corpus_of({"both": "t"}, tagged_hand="right"), corpus_of({"right": "t"})):
+        own = found(signs, minima, corpus)
+        assert set(own["hand"]) == {"right"}
+        pd.testing.assert_series_equal(own["chance"], whole.loc[own.index, "chance"])
+    # A tier each: the right hand's tags are none of the left one's.
+    each = found(signs, minima, corpus_of({"right": "t", "left": "u"}))
+    told = each[each["hand"] == "left"]["note"].unique().tolist()
+    assert told == ["not testable: no tag to compare with chance"]
+    assert set(each.loc[each["hand"] == "right", "n"]) == {58, 60}
 
 
 def test_one_sign_has_no_transition_tags_and_a_hand_may_have_no_minimum():

@@ -50,9 +50,11 @@ def test_hits_of_a_wrist_are_those_counted_by_hand(window):
         ]
         assert row.false_positives_per_s == pytest.approx(np.mean(false))
         assert row.chance_low <= row.chance_high
+        assert 0 <= row.shifted_low <= row.shifted_high <= 1
         if window < 0.1:  # few pairs compete for an event, few windows reach beyond the ends
             closed = 1 - np.exp(-2 * window * row.n_found / sum(DURATIONS.values()))
             assert row.chance_hit_rate == pytest.approx(closed, abs=0.03)
+            assert row.shifted_hit_rate == pytest.approx(closed, abs=0.06)
         mark = points[(points["x_error"].notna()) & points["panel"].str.startswith(row.hand)]
         assert row.hit_rate in set(mark["y"])
 

@@ -10,7 +10,8 @@ def wrists(path, corpus, rows):
     frame = pd.DataFrame(rows, columns=["found", "truth", "hit_rate", "chance_low", "chance_high"])
     frame = frame.assign(
         corpus=corpus, hand="right", window_s=0.09, hits=1, false_positives_per_s=1.0,
-        chance_hit_rate=frame["chance_low"], n_found=5, n_truth=10, recordings=1, note="",
+        chance_hit_rate=frame["chance_low"], shifted_hit_rate=0.4, shifted_low=0.3,
+        shifted_high=0.6, n_found=5, n_truth=10, recordings=1, note="",
     )  # fmt: skip
     write_table(frame[TABLES["one_wrist"].names()], path, "one_wrist")
     return path
@@ -34,6 +35,8 @@ def test_agreement_is_counted_against_chance_and_simulations_apart(tmp_path):
     assert "On simulated recordings, manual tags are hit above chance on 1 of 1 wrists" in told
     frame = section.exhibits[0].frame
     assert frame["above"].tolist() == ["yes", "yes", "no", "yes"]
+    assert frame["above_shifted"].tolist() == ["no", "yes", "no", "yes"]
+    assert "on 1 of 1 wrists (0 where the boundaries themselves are shifted)" in told
     assert not frame["truth"].eq("minima").any()
     assert two_papers({"bare": bare}, kinds) is None
     assert two_papers({}, kinds) is None

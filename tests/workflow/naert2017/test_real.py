@@ -4,6 +4,7 @@ import pytest
 
 from signkin import tables
 from signkin.studies.naert2017.transitions import counted
+from support.less import LESS
 from support.runs import checked, prepare, run
 
 pytestmark = pytest.mark.usefixtures("real_corpora")
@@ -12,7 +13,7 @@ pytestmark = pytest.mark.usefixtures("real_corpora")
 @pytest.fixture(scope="module")
 def real_run(tmp_path_factory, real_corpora):
     corpora = ["dgs-1984189", "boston104", "libras"]
-    folder = prepare(tmp_path_factory.mktemp("real") / "run", corpora=corpora)
+    folder = prepare(tmp_path_factory.mktemp("real") / "run", corpora=corpora, **LESS)
     return checked(run(folder, "--cores", "2", data=real_corpora))
 
 

@@ -27,6 +27,10 @@ def test_every_figure_and_table_is_there(simulated_run):
     rows = tables.read_table(folder / "synthesis/synthesis.csv", "synthesis")
     own = rows[rows["material"] == "own"]
     assert own.groupby(["recording", "transition"]).size().eq(10).all() and len(own) == 890
+    printed = tables.read_table(folder / "synthesis/readings_synthesis.csv", "readings_synthesis")
+    error = printed[printed["measure"] == "position error"].set_index("reading")["mean"]
+    assert error["slerp"] > 0 and error["linear"] == pytest.approx(error["slerp"], rel=0.02)
+    assert set(printed["printed"]) == {"yes", "no"}
     page = (simulated_run.results / "report/papers/naert2017.html").read_text()
     assert "Synthesis against the captured motion" in page and "Figure 13" in page
 

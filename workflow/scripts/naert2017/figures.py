@@ -8,10 +8,11 @@ with job(snakemake, analysis=True) as work:
     from signkin import tables
     from signkin.corpus import load_corpus
     from signkin.exhibits import exhibits, of_groups
-    from signkin.figures.style import paper_style
+    from signkin.figures.style import paper_style, save
     from signkin.report.drawn import write_figures
     from signkin.studies.naert2017.distances import diamond_table
     from signkin.studies.naert2017.figures.of_transitions import Measured, draw
+    from signkin.studies.naert2017.figures.tag_posteriors import draw_posteriors
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
@@ -32,3 +33,7 @@ with job(snakemake, analysis=True) as work:
     with work.part("the diamond's corners", out.diamond):
         corners = diamond_table(corpus.name, measured.transitions, params.settings.transitions)
         tables.write_table(corners, out.diamond, "diamond")
+    with work.part("tags and their posteriors", *out.posterior), paper_style():
+        excerpt = tables.read_table(folder / "fig06.csv", "excerpt")
+        posteriors = tables.read_table(source.posteriors, "boundary_posteriors")
+        save(draw_posteriors(excerpt, posteriors, corpus.unit), *out.posterior)

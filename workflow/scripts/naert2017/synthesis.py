@@ -7,6 +7,7 @@ with job(snakemake, analysis=True):
     from signkin.corpus import load_corpus
     from signkin.studies.naert2017.synthesis.comparison import comparison
     from signkin.studies.naert2017.synthesis.database import load_database
+    from signkin.studies.naert2017.synthesis.readings import synthesis_readings
     from signkin.studies.naert2017.synthesis.summary import summary
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
@@ -16,5 +17,10 @@ with job(snakemake, analysis=True):
     )
     rows = comparison(base, params.settings)
     errors = summary(rows, corpus, params.draws, params.seed)
-    for kind, table in {"synthesis": rows, "synthesis_summary": errors}.items():
+    printed = synthesis_readings(base, params.settings, params.seed)
+    for kind, table in {
+        "synthesis": rows,
+        "synthesis_summary": errors,
+        "readings_synthesis": printed,
+    }.items():
         tables.write_table(table, out[kind], kind, corpus.unit)

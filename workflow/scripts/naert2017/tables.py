@@ -11,6 +11,7 @@ with job(snakemake, analysis=True):
     from signkin.figures.style import paper_style, save
     from signkin.studies.naert2017.figures.refinement_quality import draw_quality
     from signkin.studies.naert2017.lexicon import lexicon_use
+    from signkin.studies.naert2017.posterior_durations import posterior_durations
     from signkin.studies.naert2017.posteriors import boundary_posteriors
     from signkin.studies.naert2017.readings import plain_boundaries, plain_segmentations
     from signkin.studies.naert2017.refinement import refinement
@@ -38,12 +39,21 @@ with job(snakemake, analysis=True):
     near = tag_chance(
         corpus, about, intervals, minima, tagged, settings.refinement, snakemake.params.seed
     )
+    posteriors = boundary_posteriors(
+        corpus, tagged, intervals, minima, sign_types, settings.kinematics.lowpass.cutoff_hz
+    )
+    durations = posterior_durations(
+        corpus.name,
+        moves,
+        posteriors,
+        unit,
+        settings.transitions.euclidean_unit_m,
+        snakemake.params.seed,
+    )
     made = {
         "boundaries": ("boundaries", boundaries),
-        "posteriors": (
-            "boundary_posteriors",
-            boundary_posteriors(corpus, tagged, intervals, minima),
-        ),
+        "posteriors": ("boundary_posteriors", posteriors),
+        "posterior_durations": ("posterior_durations", durations),
         "sign_types": ("sign_types", sign_types),
         "transitions": ("transitions", moves),
         "left_out": ("transitions", left_out(moves)),

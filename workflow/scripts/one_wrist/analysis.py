@@ -8,6 +8,7 @@ with job(snakemake, analysis=True):
     from signkin.figures.style import paper_style, save
     from signkin.studies.one_wrist.analysis import events_of, one_wrist
     from signkin.studies.one_wrist.figures import drawn, example_frames
+    from signkin.studies.one_wrist.scores import segmentation_scores
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
@@ -22,6 +23,12 @@ with job(snakemake, analysis=True):
     made["one_wrist"], rates = one_wrist(
         corpus, about, made["wrist_posteriors"], events, params.hit_window_s, params.seed
     )
+    made["segmentation_scores"] = tables.empty("segmentation_scores")
+    if tags is not None:
+        posteriors = tables.read_table(source.posteriors, "boundary_posteriors")
+        made["segmentation_scores"] = segmentation_scores(
+            corpus.name, tags, posteriors, minima, made, params.seed
+        )
     frames = example_frames(source.frames, about, made["wrist_posteriors"])
     with paper_style():
         figure = drawn(

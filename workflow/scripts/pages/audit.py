@@ -7,6 +7,7 @@ with job(snakemake):
     from signkin import tables
     from signkin.audit.paper import read_paper
     from signkin.pages.audit import audit_page
+    from signkin.report.images import InPlace
     from signkin.report.page import render
 
     page_file = Path(snakemake.output.page)
@@ -21,4 +22,4 @@ with job(snakemake):
         {Path(file).parent.name: Path(file) for file in snakemake.input.wrists},
         page_file.parent,
     )
-    page_file.write_text(render(page, page_file.parent), encoding="utf-8")
+    page_file.write_text(render(page, page_file.parent, InPlace()), encoding="utf-8")

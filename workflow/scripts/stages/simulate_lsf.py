@@ -26,5 +26,9 @@ with job(snakemake):
     for entry, recording in zip(corpus.entries, simulated.recordings, strict=True):
         lsf.write_motion(recording, folder / entry.motion)
         lsf.write_tags(recording, folder / entry.annotation)
+        rng = seeds.stream(snakemake.params.seed, corpus.name, "second tagger", recording.name)
+        for annotator in corpus.annotators:
+            path = folder / corpus.annotator_file(entry, annotator)
+            lsf.write_second_tags(recording, path, rng)
     tables.write_table(simulated.truth, snakemake.output.truth, "truth")
     tables.write_table(simulated.design, snakemake.output.design, "design")

@@ -38,10 +38,9 @@ function readout() {
     parts.push(`transition ${one.number}${one.type ? ` (${one.type})` : ""}, ${seconds(one.end - one.start)}`);
   }
   for (const one of DENSITIES) {
-    const shown = document.querySelectorAll("#orders .chip")[DENSITIES.indexOf(one)];
     const i = Math.round((time - one.first) / one.bin);
-    if (shown?.getAttribute("aria-pressed") === "true" && i >= 0 && i < one.curve.length) {
-      parts.push(`P(boundary), order ${one.order}: ${Math.max(0, one.curve[i]).toFixed(3)}`);
+    if (SHOWN_ORDERS.has(one.order) && i >= 0 && i < one.curve.length) {
+      parts.push(`P(boundary), ${one.hand}, order ${one.order}: ${Math.max(0, one.curve[i]).toFixed(3)}`);
     }
   }
   const near = FLAGS.filter((flag) => Math.abs(flag.time - time) < 0.05 + (state.to - state.from) / 200);

@@ -12,7 +12,7 @@ async function readTracks() {
   }
   DENSITIES = [];
   for (const one of DATA.densities) {
-    DENSITIES.push({ ...one, curve: (await unpacked(one.values))[0] });
+    DENSITIES.push({ ...one, boundaries: summed(one.times), curve: (await unpacked(one.values))[0] });
   }
 }
 

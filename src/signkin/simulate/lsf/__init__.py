@@ -5,7 +5,8 @@ transitions of Naert et al. 2017: their types, numbers, means and SDs are those 
 the printed Table 2, and the distances between the postures around them are
 designed to lie about the printed surface with its printed mean error. Hands move
 in minimum-jerk strokes, each hand with true boundaries of its own; the manual
-tags stand beside them by a tagger's jitter.
+tags stand beside them by a tagger's jitter, those of a second annotator by a lag and jitter of
+their own.
 
 It shows whether the pipeline finds what was put in. It says nothing about people.
 """
@@ -16,8 +17,10 @@ from signkin.simulate.lsf.corpus import (
     SimulatedRecording,
     simulate,
     write_motion,
+    write_second_tags,
     write_tags,
 )
+from signkin.simulate.lsf.second_tagger import second_tags
 from signkin.simulate.lsf.signs import RATE_HZ
 
 __all__ = [
@@ -25,7 +28,9 @@ __all__ = [
     "TERMS",
     "SimulatedCorpus",
     "SimulatedRecording",
+    "second_tags",
     "simulate",
     "write_motion",
+    "write_second_tags",
     "write_tags",
 ]

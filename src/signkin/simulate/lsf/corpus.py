@@ -17,6 +17,7 @@ from signkin.simulate.body import Body
 from signkin.simulate.lsf.design import design, utterances_of
 from signkin.simulate.lsf.motion import channel_values, coordinates_of
 from signkin.simulate.lsf.postures import choose_postures
+from signkin.simulate.lsf.second_tagger import second_tags
 from signkin.simulate.lsf.signs import FRAME_S, RATE_HZ, Token, Transition
 from signkin.simulate.lsf.tags import place_tags, true_times
 
@@ -50,10 +51,12 @@ def simulate(
     mean_error_s: float,
     euclidean_unit_m: float,
     rng: np.random.Generator,
+    parts: int | None = None,
 ) -> SimulatedCorpus:
     """Simulate the corpus.
 
-    names: of the recordings. lexicon: gloss -> two digits. table2: the printed table, all
+    names: of the recordings. parts: how many recordings the design is cut into, of which the first
+    have names; None: as many as names. lexicon: gloss -> two digits. table2: the printed table, all
     text. theta (3,), mean_error_s: the printed surface and its mean error, for geodesic
     distances in radians and Euclidean ones in `euclidean_unit_m`.
     """
@@ -61,7 +64,7 @@ def simulate(
     body = Body()
     utterances = utterances_of(designed, lexicon, rng)
     order = rng.permutation(len(utterances))
-    groups = np.array_split(order, len(names))
+    groups = np.array_split(order, parts or len(names))[: len(names)]
     recordings, truth, design_rows = [], [], []
     for name, group in zip(names, groups, strict=True):
         chosen = [utterances[i] for i in sorted(group)]
@@ -126,6 +129,17 @@ def _design_rows(
 def write_motion(recording: SimulatedRecording, path: Path) -> None:
     """Write the motion as BVH (cm, degrees)."""
     write_bvh(path, Body().hierarchy, recording.values, RATE_HZ)
+
+
+def write_second_tags(recording: SimulatedRecording, path: Path, rng: np.random.Generator) -> None:
+    """Write the signs as a second annotator tags them, as ELAN: one tier, `sign`."""
+    write_eaf(
+        path,
+        author="signkin simulator, second annotator",
+        date="2017-07-09T00:00:00+00:00",
+        media_url=f"{recording.name}.bvh",
+        tiers=[("sign", None, second_tags(recording.utterances, rng))],
+    )
 
 
 def write_tags(recording: SimulatedRecording, path: Path) -> None:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from signkin import tables
 from signkin.binning import Posterior, Prior, fit_many
 from signkin.binning.hit_rate import hit_rate
+from signkin.binning.shifted import shifted_hits
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 from signkin.settings.sections import Prior as PriorSettings
@@ -128,8 +129,11 @@ class Study:
         self.workers = workers
         self.left_out: list[dict[str, Any]] = []
 
-    def run(self, items: Sequence[Data]) -> list[Fitted]:
-        """Bin the trajectories; those that cannot be are left out and listed."""
+    def run(self, items: Sequence[Data], expectations: bool | Sequence[int] = True) -> list[Fitted]:
+        """Bin the trajectories; those that cannot be are left out and listed.
+
+        expectations: as for `fit`.
+        """
         usable: list[tuple[Data, Floats, Prior]] = []
         for item in items:
             try:
@@ -150,6 +154,7 @@ class Study:
             workers=self.workers,
             names=[f"recording {item.source.recording}" for item, _, _ in usable],
             sample_at=[item.source.sample_at for item, _, _ in usable],
+            expectations=expectations,
         )
         return [Fitted(item, one) for (item, _, _), one in zip(usable, found, strict=True)]
 
@@ -172,15 +177,23 @@ class Study:
 
     def fitted_data(self, fitted: Fitted, order: int) -> Iterator[Data]:
         """Yield both kinds of trajectory that the fit of an order makes, to be binned as data."""
-        posterior, source = fitted.posterior, fitted.data.source
-        # The data's variances are the fitted trajectory's own: nothing of a sensor's in them.
-        own = self.settings.prior.noise == "data"
-        share = 1.0 if own else self.settings.recovery_noise
-        mean = posterior.expected_trajectory(order)
-        yield Data(source, FITTED, mean, order, fitted.boundaries_s(order), share)
+        mean = fitted.posterior.expected_trajectory(order)
+        truth_s = fitted.boundaries_s(order)
+        yield Data(fitted.data.source, FITTED, mean, order, truth_s, self._share())
+        yield self.fitted_map_data(fitted, order)
+
+    def fitted_map_data(self, fitted: Fitted, order: int) -> Data:
+        """Return the one from the most probable segmentation, exactly piecewise polynomial."""
+        posterior = fitted.posterior
         ends = posterior.map_segmentation(order)
-        exact = posterior.map_trajectory(order)
-        yield Data(source, FITTED_MAP, exact, order, posterior.times_s(ends), share)
+        exact = posterior.map_trajectory(order, ends=ends)
+        return Data(
+            fitted.data.source, FITTED_MAP, exact, order, posterior.times_s(ends), self._share()
+        )
+
+    def _share(self) -> float:
+        # The data's variances are the fitted trajectory's own: nothing of a sensor's in them.
+        return 1.0 if self.settings.prior.noise == "data" else self.settings.recovery_noise
 
 
 def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[dict[str, Any]]:
@@ -191,14 +204,16 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
     entry = corpus.by_name[source.recording]
     known = data.dataset != RECORDED
     x = data.x - data.x.mean(axis=0)
+    prior = prior_id(settings.prior, data.noise_share)
     for i, order in enumerate(posterior.orders):
+        misfit = posterior.noise_misfit(order)
         row: dict[str, Any] = {
             **start,
             "sign": entry.sign,
             "repetition": entry.repetition,
             "dataset": data.dataset,
             "true_order": data.true_order,
-            "prior_id": prior_id(settings.prior, data.noise_share),
+            "prior_id": prior,
             "n_bins": len(x),
             "duration_s": source.duration_s,
             "order": order,
@@ -208,17 +223,16 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "expected_count": float(posterior.boundary_probability(order).sum()),
             "cut_mass": posterior.cut_mass[i],
             "explained_variance": explained_variance(x, posterior.expected_trajectory(order)),
-            "noise_misfit": posterior.noise_misfit(order),
+            "noise_misfit": misfit,
             "at_floor": "yes" if posterior.at_floor(order) else "no",
         }
-        doubts = posterior.doubts(order)
+        doubts = posterior.doubts(order, misfit)
         if not known:
             yield {**row, "note": _joined("boundaries of recorded movements are not known", doubts)}
             continue
-        rate = hit_rate(
-            fitted.boundaries_s(order), data.truth_s, settings.hit_window_s,
-            duration_s=source.duration_s,
-        )  # fmt: skip
+        found, window = fitted.boundaries_s(order), settings.hit_window_s
+        rate = hit_rate(found, data.truth_s, window, duration_s=source.duration_s)
+        chance = shifted_hits(found, data.truth_s, window, duration_s=source.duration_s)
         hpfpps = rate.hpfpps
         yield {
             **row,
@@ -228,6 +242,8 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "hit_rate": rate.hit_rate,
             "false_positives_per_s": rate.false_positives_per_s,
             "hpfpps": hpfpps if np.isfinite(hpfpps) else None,
+            "shifted_hits": chance.mean,
+            "shifted_sd": chance.sd,
             "note": _joined(
                 rate.note or ("" if np.isfinite(hpfpps) else _why_no_ratio(rate.hits)), doubts
             ),

@@ -103,7 +103,8 @@ def _segments(
             yield {**row, "note": str(error)}
             continue
         beta = {column: found.beta[name] for name, column in COLUMNS.items()}
-        yield {**row, **beta, "r": found.r, "r_squared": found.r_squared, "note": ""}
+        told = {"r": found.r, "r_squared": found.r_squared, "reliability": found.reliability}
+        yield {**row, **beta, **told, "note": found.note}
 
 
 def law_pitfalls(corpus: Corpus, rate_hz: float, settings: CutSettings, seed: int) -> pd.DataFrame:
@@ -119,11 +120,12 @@ def law_pitfalls(corpus: Corpus, rate_hz: float, settings: CutSettings, seed: in
             "duration_s": one.duration_s,
             "noise_sd": one.noise_sd,
             "estimator": name,
-            "found": float(np.nanmean(one.values[name])),
-            "sd": float(np.nanstd(one.values[name], ddof=1)) if one.noise_sd else None,
+            "found": one.mean(name),
+            "sd": one.sd(name) if one.noise_sd else None,
             "r": float(np.nanmean(one.r)),
             "smallest_difference": one.smallest_difference(name) if one.noise_sd else None,
             "draws": len(one.r),
+            "told": one.told(name),
         }
         for one in found
         for name in ESTIMATORS

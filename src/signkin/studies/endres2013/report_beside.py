@@ -72,7 +72,7 @@ def learnt(folder: Path) -> Iterator[TableView]:
     if frame.empty:
         return
     noise = next(str(column) for column in frame.columns if str(column).startswith("noise_sd_"))
-    shown = frame.assign(noise_um=frame[noise] * 1e6 if noise == "noise_sd_m" else frame[noise])
+    shown = frame.assign(noise_mm=frame[noise] * 1e3 if noise == "noise_sd_m" else frame[noise])
     yield TableView(
         label="",
         title="The prior that the recordings ask for",
@@ -86,7 +86,7 @@ def learnt(folder: Path) -> Iterator[TableView]:
             "held_out": ("held out", ""),
             "prior": ("prior", ""),
             "dof": ("nu", ".3g"),
-            "noise_um": ("noise (µm)" if noise == "noise_sd_m" else "noise (px)", ".3g"),
+            "noise_mm": ("noise (mm)" if noise == "noise_sd_m" else "noise (px)", ".3g"),
             "concentration": ("b", ".2g"),
             "order": ("order", "d"),
             "order_probability": ("P", ".2f"),

@@ -15,12 +15,14 @@ import pandas as pd
 from signkin import tables
 from signkin.binning.hit_rate import (
     ChanceLine,
+    GroupRates,
     HitRate,
     chance_line,
     compare_orders,
     group_rates,
     hpfpps,
 )
+from signkin.binning.shifted import Shifted, shifted_rates
 from signkin.seeds import stream
 from signkin.settings.sections import Binning
 from signkin.studies.endres2013.posteriors import FITTED, FITTED_MAP
@@ -153,6 +155,7 @@ def hit_rates(
                     **key,
                     "order": order,
                     **_rate_row(of_order, line, settings, rng),
+                    **_shifted_row(part[part["order"] == order]),
                 }
             )
     return (
@@ -199,12 +202,40 @@ def _rate_row(
         "false_positives_per_s": mean.false_positives_per_s,
         "false_positives_per_s_se": mean.false_positives_per_s_se,
         **chance,
+        **_beside(mean, chance["chance_hit_rate"]),
         **finite,
         "unbounded_draws": ratio.unbounded,
         "n": mean.n,
         "without_truth": mean.without_truth,
         "note": "; ".join(note for note in notes if note),
     }
+
+
+def _beside(mean: GroupRates, by_chance: float | None) -> dict[str, float]:
+    """Return what chance makes of eq. 17, and the hit rate without it."""
+    if by_chance is None:
+        return {}
+    false = mean.false_positives_per_s
+    over = {"over_chance": mean.hit_rate - by_chance}
+    return over | ({"chance_hpfpps": by_chance / false} if false > 0 else {})
+
+
+def _shifted_row(rows: pd.DataFrame) -> dict[str, Any]:
+    """Return what the boundaries of a group's trajectories hit where they are shifted."""
+    of = rows[["hits", "misses", "false_positives", "duration_s", "shifted_hits", "shifted_sd"]]
+    hits, misses, false, seconds, mean, sd = of.to_numpy(dtype=float).T
+    each = [Shifted(*one) for one in zip(mean, sd, strict=True)]
+    found = shifted_rates(each, hits + misses, hits + false, seconds)
+    used = hits + misses > 0
+    rate = float(np.mean(hits[used] / (hits + misses)[used])) if used.any() else float("nan")
+    row = {
+        "shifted_hit_rate": found.hit_rate,
+        "shifted_low": found.low,
+        "shifted_high": found.high,
+        "shifted_hpfpps": found.hpfpps,
+        "over_shifted": rate - found.hit_rate,
+    }
+    return {name: value if np.isfinite(value) else None for name, value in row.items()}
 
 
 def _line_rows(line: ChanceLine) -> Iterator[dict[str, float]]:

@@ -93,6 +93,15 @@ def _rows(binning: pd.DataFrame) -> Iterator[dict[str, Any]]:
             yield row
 
 
+def told_prior(prior: str) -> str:
+    """Return a `prior_id` in words: `nu = L, noise of the sensor, V expected, b = 0.1, bins`."""
+    dof, noise, *scale, b, unit = prior.split(" ")
+    return (
+        f"nu = {dof.removeprefix('dof')}, noise of the {noise}, V {' in '.join(scale)}, "
+        f"b = {b.removeprefix('b')}, time in {'bins' if unit == 'bin' else unit}"
+    )
+
+
 def printed_beside(table: pd.DataFrame) -> pd.DataFrame:
     """Return what the paper prints of Fig. 3 to 7 beside both readings: what, where, printed, ...
 

@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from signkin.figures import durations, style
+from signkin.studies.naert2017.figures.notice import notice
 
 TITLES = {
     "MEAN": "MEAN (baseline)",
@@ -20,8 +21,10 @@ TITLES = {
 
 
 def draw_predictions(predictions: pd.DataFrame) -> Figure:
-    """Draw a panel for each model that was tested, all on the same axes."""
+    """Draw a panel for each model that was tested, all on the same axes; none: why."""
     names = [name for name in TITLES if name in set(predictions["model"])]
+    if not names:
+        return notice("No model predicts a transition that it did not see: too few transitions.")
     wide = min(3, len(names))
     deep = -(-len(names) // wide)
     figure, axes = plt.subplots(

@@ -155,6 +155,8 @@ def models(
             try:
                 if name in learn.absent:
                     raise SignkinError(learn.absent[name])
+                if name == "MEAN" and len(learn.data) < 2:
+                    raise SignkinError("one transition is its own mean")
                 if members is None:
                     found = make().fit(learn.data).predict(learn.data)
                 else:
@@ -174,7 +176,10 @@ def models(
                 baseline[evaluation] = np.abs(found - learn.data.duration_s)
             # One stream for all: models are compared on the same draws.
             rng = seeds.stream(seed, corpus, "duration_models")
-            measured = _errors(found, baseline[evaluation], learn, recordings, chosen, rng)
+            none = np.full(len(learn.data), np.nan)
+            measured = _errors(
+                found, baseline.get(evaluation, none), learn, recordings, chosen, rng
+            )
             errors.append({**lead, **measured, "note": note})
             if evaluation == "leave_one_out":
                 predicted.append(_predictions(learn.rows, name, found))
@@ -202,7 +207,9 @@ def _errors(
     def means(rows: np.ndarray) -> np.ndarray:
         return np.array([part[rows].mean() for part in parts])
 
-    low, high = association.bootstrap(means, units, chosen.draws, chosen.alpha, rng)
+    low = high = np.full(len(parts), np.nan)
+    if len(units) > 1:  # one transition has no interval
+        low, high = association.bootstrap(means, units, chosen.draws, chosen.alpha, rng)
     measured = {
         "mean_error_s": absolute.mean(),
         "mean_error_low_s": low[0],

@@ -33,6 +33,7 @@ from signkin.studies.naert2017.settings import GridSettings
 from signkin.studies.naert2017.tag_chance import ALL, TRANSITION
 from signkin.studies.naert2017.tagged import (
     filled_recording,
+    hands_tagged,
     intervals_of,
     turns_of,
     utterances_of,
@@ -40,6 +41,7 @@ from signkin.studies.naert2017.tagged import (
 from signkin.studies.naert2017.transitions import between_manual
 
 ALPHA = 0.05
+NEAR_TAGS = ("N19", "N20")  # of each hand's tags and its own minima
 MAJORITY = 0.5  # 4.2: "a correct segmentation for a majority of cases"
 VISIBLE_S = 0.03  # Fig. 9: a tenth of the mean transition
 LEAST = 6  # transitions that a correlation is made from
@@ -195,6 +197,8 @@ def claim_choices(
     ):
         if setting in gathered:
             rows += _refined_rows(setting, gathered[setting], settings)
+    own = hands_tagged(corpus)
+    rows = [r for r in rows if r["claim"] not in NEAR_TAGS or r["hand"] in own]
     for row in rows:
         row["corpus"] = corpus.name
     frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["claim_choices"].names())

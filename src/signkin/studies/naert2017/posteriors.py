@@ -7,7 +7,12 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from signkin.coarticulation import TagModel, learn_tag_model, refine_posterior
+from signkin.coarticulation import (
+    TagModel,
+    learn_tag_model,
+    most_outward_s,
+    refine_posterior,
+)
 from signkin.coarticulation.segmentation import EDGES
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
@@ -17,39 +22,65 @@ NOT_LEARNT = "too few tags or no minima to learn from: bias and jitter are assum
 
 
 def boundary_posteriors(
-    corpus: Corpus, names: Iterable[str], intervals: pd.DataFrame, minima: pd.DataFrame
+    corpus: Corpus,
+    names: Iterable[str],
+    intervals: pd.DataFrame,
+    minima: pd.DataFrame,
+    sign_types: pd.DataFrame,
+    cutoff_hz: float,
 ) -> pd.DataFrame:
     """Return the table `boundary_posteriors`; the jitter is learnt from all recordings of a hand.
 
-    names: of the recordings. intervals, minima: tables of these names.
+    names: of the recordings. intervals, minima, sign_types: tables of these names. cutoff_hz: of
+    the low-pass that speeds have gone through.
     """
+    start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
     depth = f"prominence_{corpus.unit}_per_s"
     parts = []
     signs = {name: intervals_of(intervals, name, "sign") for name in names}
     for hand in HANDS:
+        acts = {name: acting(corpus, sign_types, name, hand, len(signs[name])) for name in signs}
         sets = {}
         for name, tags in signs.items():
             rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
             times = np.array([(s.start_s, s.end_s) for s in tags]).reshape(-1, 2)
             sets[name] = (times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
-        model = learn_tag_model(list(sets.values()))
+        model = learn_tag_model(list(sets.values()), start, acts=list(acts.values()))
         for name, tags in signs.items():
-            rows = _rows(hand, [s.label for s in tags], sets[name], model)
+            rows = _rows(hand, [s.label for s in tags], sets[name], acts[name], model)
+            if model == start:
+                rows["note"] = [f"{n}; {NOT_LEARNT}" if n else NOT_LEARNT for n in rows["note"]]
             parts.append(with_lead(corpus, name, rows))
     return together(parts, "boundary_posteriors", corpus.unit)
+
+
+def acting(
+    corpus: Corpus, sign_types: pd.DataFrame, recording: str, hand: str, signs: int
+) -> np.ndarray:
+    """Return whether the hand acts in each sign of a recording, (N,), by the signs' types.
+
+    The dominant hand does in all, the other one in two-handed signs; a sign without a type is
+    taken for one in which both do.
+    """
+    acts = np.ones(signs, dtype=bool)
+    if hand == corpus.dominant_hand(corpus.by_name[recording]):
+        return acts
+    rows = sign_types[sign_types["recording"] == recording]
+    one_handed = rows[rows["type"].str.match("[02]")]
+    acts[one_handed["sign"].to_numpy(dtype=int) - 1] = False
+    return acts
 
 
 def _rows(
     hand: str,
     glosses: list[str],
     given: tuple[np.ndarray, np.ndarray, np.ndarray],
+    acts: np.ndarray,
     model: TagModel,
 ) -> pd.DataFrame:
     tags, times, depth = given
-    found = refine_posterior(tags, times, depth, model=model)
-    notes = [str(note) for note in found.notes.ravel()]
-    if model == TagModel():
-        notes = [f"{note}; {NOT_LEARNT}" if note else NOT_LEARNT for note in notes]
+    found = refine_posterior(tags, times, depth, acts=acts, model=model)
+    bias = np.broadcast_to(model.bias_s, tags.shape)
     return pd.DataFrame(
         {
             "sign": np.repeat(np.arange(1, len(tags) + 1), 2),
@@ -64,8 +95,10 @@ def _rows(
             "high90_s": found.interval90_s[..., 1].ravel(),
             "off": found.off.ravel(),
             "own_minimum": found.own_minimum.ravel(),
-            "bias_s": model.bias_s,
+            "acts": np.repeat(acts, 2),
+            "bias_s": bias.ravel(),
             "jitter_s": model.sd_s,
-            "note": notes,
+            "outward_s": model.outward_s,
+            "note": [str(note) for note in found.notes.ravel()],
         }
     )

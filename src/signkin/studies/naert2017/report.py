@@ -267,7 +267,9 @@ def _tag_chance(source: Source) -> TableView:
         f"minima without any order would give (Poisson). The share is that within {window:g} s, "
         "the mean share that over windows from 0.02 to 0.2 s (every window is in the file). p: as "
         "near or nearer by chance, one-sided; by Holm for both hands, both sets of tags and three "
-        "nulls. Transition: without the first and last tag of a stretch.",
+        "nulls. Transition: without the first and last tag of a stretch. The median change is that "
+        "of the times between signs (s) where each tag goes to its nearest minimum in the window: "
+        "tags by chance move, too.",
         frame=frame[told],
         columns={
             "hand": ("hand", ""),

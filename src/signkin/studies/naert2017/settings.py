@@ -37,6 +37,7 @@ class TransitionSettings(Sections):
 class TableSettings(Sections):
     """What the tables of a corpus, and the check of a simulation, are made with."""
 
+    kinematics: Kinematics
     refinement: Refinement
     transitions: Transitions
 

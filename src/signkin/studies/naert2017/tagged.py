@@ -12,6 +12,7 @@ from signkin.annotation import Interval
 from signkin.coarticulation.sign_speeds import continuous
 from signkin.coarticulation.transitions import utterance_names
 from signkin.corpus import Corpus
+from signkin.joints import HANDS
 from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps
 from signkin.kinematics.rotations import parent_relative
@@ -27,6 +28,26 @@ def intervals_of(intervals: pd.DataFrame, recording: str, role: str) -> list[Int
         Interval(float(r.start_s), float(r.end_s), str(r.label), str(r.tier))
         for r in rows.itertuples(index=False)
     )
+
+
+def hands_tagged(corpus: Corpus) -> tuple[str, ...]:
+    """Return the hands that a corpus's tags of signs are of: both, unless it tells of one."""
+    told = corpus.settings.get("tagged_hand")
+    if told:
+        return (str(told),)
+    by_hand = {hand for entry in corpus.entries for hand in corpus.tiers_of(entry).get("sign", {})}
+    if not by_hand or "both" in by_hand:
+        return HANDS
+    return tuple(hand for hand in HANDS if hand in by_hand)
+
+
+def signs_of_hand(
+    corpus: Corpus, intervals: pd.DataFrame, recording: str, hand: str
+) -> list[Interval]:
+    """Return the signs of a recording but those of the other hand's own tier."""
+    other = next(name for name in HANDS if name != hand)
+    apart = corpus.tiers_of(corpus.by_name[recording]).get("sign", {}).get(other)
+    return [s for s in intervals_of(intervals, recording, "sign") if s.tier != apart]
 
 
 def kept(about: pd.DataFrame, excluded: pd.DataFrame) -> list[str]:

@@ -15,7 +15,15 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from signkin import tables
-from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, group_rates, hit_rate
+from signkin.binning.hit_rate import (
+    INTERVAL,
+    ChanceLine,
+    HitRate,
+    chance_line,
+    group_rates,
+    hit_rate,
+)
+from signkin.binning.shifted import hits_of_shifts
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.seeds import stream
@@ -155,8 +163,27 @@ def _compared(
         "chance_hit_rate": line.hit_rate[-1],
         "chance_low": line.hit_rate_low[-1],
         "chance_high": line.hit_rate_high[-1],
+        **_shifted(founds, truths, wrist.durations_s, window_s, draws, rng.spawn(1)[0]),
     }
     return row, line
+
+
+def _shifted(
+    founds: Sequence[Floats], truths: Sequence[Floats], durations_s: Sequence[float],
+    window_s: float, draws: int, rng: np.random.Generator,
+) -> dict[str, float]:  # fmt: skip
+    """Return the hit rate of events that keep their gaps, shifted in a circle in each recording."""
+    rates = np.mean(
+        [
+            hits_of_shifts(found, np.sort(truth), window_s, seconds, seconds * rng.random(draws))
+            / len(truth)
+            for found, truth, seconds in zip(founds, truths, durations_s, strict=True)
+            if len(truth)
+        ],
+        axis=0,
+    )
+    low, high = np.percentile(rates, INTERVAL)
+    return {"shifted_hit_rate": rates.mean(), "shifted_low": low, "shifted_high": high}
 
 
 def _chance_points(panel: str, line: ChanceLine) -> list[dict[str, Any]]:

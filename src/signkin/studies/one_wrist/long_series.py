@@ -23,7 +23,7 @@ from signkin.studies.endres2013.posteriors import explained_variance, prior_of
 from signkin.studies.one_wrist.settings import SeriesSettings
 
 Floats = NDArray[np.float64]
-Job = tuple[str, str, Floats, float, float]  # of _wrist_in_bins, by recording and hand
+Job = tuple[str, str, Floats, float, float]  # of wrist_in_bins, by recording and hand
 
 
 @dataclass
@@ -55,7 +55,7 @@ def long_series(
         for hand in HANDS:
             start = {**lead(corpus, recording.name), "dataset": f"{hand} wrist"}
             try:
-                jobs.append((recording.name, hand, *_wrist_in_bins(recording, hand, settings)))
+                jobs.append((recording.name, hand, *wrist_in_bins(recording, hand, settings)))
             except SignkinError as error:
                 out.left_out.append({**start, "reason": str(error)})
     for longest, some in _by_longest(jobs, settings.continuous.longest_segment_s).items():
@@ -77,7 +77,7 @@ def long_series(
     return out
 
 
-def _wrist_in_bins(
+def wrist_in_bins(
     recording: Recording, hand: str, settings: SeriesSettings
 ) -> tuple[Floats, float, float]:
     """Return positions, the duration of a bin, and where in its bin a position is."""
@@ -94,10 +94,15 @@ def _wrist_in_bins(
     return x - x.mean(axis=0), bin_s, sample_at(frames, bins)
 
 
+def longest_in_bins(longest_s: float, bin_s: float) -> int:
+    """Return the longest segment in bins, at least 2."""
+    return max(2, round(longest_s / bin_s))
+
+
 def _by_longest(jobs: Sequence[Job], longest_s: float) -> dict[int, list[Job]]:
     out: dict[int, list[Job]] = {}
     for job in jobs:
-        out.setdefault(max(2, round(longest_s / job[3])), []).append(job)
+        out.setdefault(longest_in_bins(longest_s, job[3]), []).append(job)
     return out
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -32,7 +33,9 @@ def caption(laws: pd.DataFrame, known: pd.DataFrame) -> str:
     there = laws.dropna(subset=["beta"])
     alone = known[known["path"] == "noise alone"]
     noise = alone.groupby("estimator", sort=False)["found"].mean()
-    of_noise = ", ".join(f"{name} {value:.2f}" for name, value in noise.items())
+    of_noise = ", ".join(
+        f"{name} {'none' if np.isnan(value) else f'{value:.2f}'}" for name, value in noise.items()
+    )
     exact = known[(known["path"] == "ellipse") & (known["estimator"] == NON_LINEAR)]
     clean = exact[(exact["noise_sd"] == 0) & (exact["duration_s"] == 0.8)]
     told = ", ".join(f"{row.found:.3f} for {row.beta:.3g}" for row in clean.itertuples())
@@ -53,7 +56,13 @@ def _recorded(there: pd.DataFrame, lost: int) -> str:
     parts = []
     for name, column in COLUMNS.items():
         low, middle, high = there[column].quantile([0.25, 0.5, 0.75])
-        parts.append(f"{name} {middle:.2f} ({low:.2f} to {high:.2f})")
+        without = int(there[column].isna().sum())
+        told = f"{name} {middle:.2f} ({low:.2f} to {high:.2f})"
+        if without == len(there):
+            told = f"{name} none"
+        elif without:
+            told += f", of {len(there) - without} where noise leaves enough of curvature"
+        parts.append(told)
     return (
         f"Left: exponents of {len(there)} segments of recorded movement between the boundaries of "
         f"order 3 ({lost} more have none: too few samples, or no curvature), median and quartiles "

@@ -12,7 +12,7 @@ from signkin.report.drawn import Drawn
 from signkin.studies.endres2013.figures.points import frame_of, hit_points, order_points, point
 from signkin.studies.endres2013.posteriors import FITTED_MAP
 from signkin.studies.endres2013.single_signs import POWERLAW, RECORDED
-from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside
+from signkin.studies.endres2013.two_priors import FITTED_ORDER, printed_beside, told_prior
 
 TITLES = {
     "3B": "3B  orders of refound order 3 (paper: 3)",
@@ -76,20 +76,23 @@ def _one_legend(figure: Figure) -> None:
         legend.remove()
     if legends:
         handles = [h for h in legends[0].legend_handles if h is not None]
-        labels = [text.get_text() for text in legends[0].get_texts()]
+        labels = [told_prior(text.get_text()) for text in legends[0].get_texts()]
         legends[0].remove()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+        figure.legend(handles, labels, loc="outside lower center", ncols=1)
 
 
 def caption(table: pd.DataFrame) -> str:
     """Return what stands below the figure."""
-    priors = " and ".join(f"`{prior}`" for prior in dict.fromkeys(table["prior"]))
+    priors = " and under ".join(
+        f"{told_prior(prior)} (`{prior}`)" for prior in dict.fromkeys(table["prior"])
+    )
     told = "; ".join(
         f"{row.what}: {row[4] or 'none'} and {row[5] or 'none'} (paper: {row.printed})"
         for row in printed_beside(table).itertuples()
+        if "peak" in row.what  # the others stand in the table
     )
     n = int(table.loc[table["dataset"] == RECORDED, "n"].max())
     return (
         f"Fig. 3 to 7 on {n} recordings under {priors}, in this order; trajectories of order "
-        f"{FITTED_ORDER} are the most probable ones. Lines: the paper's order. {told}."
+        f"{FITTED_ORDER} are the most probable ones. Red lines: the paper's order. {told}."
     )

@@ -70,6 +70,23 @@ def comparison(base: Database, settings: SynthesisSettings) -> pd.DataFrame:
     return pd.DataFrame(rows)[tables.TABLES["synthesis"].names(base.corpus.unit)]
 
 
+def in_true_time(base: Database, settings: SynthesisSettings, most: int) -> pd.DataFrame:
+    """Return rows of `synthesis` of so many transitions at most: of themselves, in true time."""
+    pairs = base.pairs()
+    if len(pairs) > most:
+        pairs = [pairs[i] for i in np.linspace(0, len(pairs) - 1, most).round().astype(int)]
+    depth = {name: least_depth(take, settings.kinematics) for name, take in base.recordings.items()}
+    rows = [
+        row
+        for pair in pairs
+        for row in _rows(
+            base, pair, (pair.first, pair.second), OWN, {TRUE: pair.true_s},
+            depth[base.tokens[pair.first].sign.recording.name], settings,
+        )
+    ]  # fmt: skip
+    return pd.DataFrame(rows, columns=tables.TABLES["synthesis"].names(base.corpus.unit))
+
+
 def substitutes(base: Database, pairs: Sequence[Pair]) -> list[tuple[int, int] | None]:
     """Return for each transition other signs of the same two glosses, the nearest to each other.
 

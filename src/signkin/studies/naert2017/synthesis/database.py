@@ -16,7 +16,7 @@ from signkin.annotation import Interval
 from signkin.coarticulation.duration import Transitions
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.coarticulation.retrieval import Candidates
-from signkin.coarticulation.sign_speeds import sign_speeds
+from signkin.coarticulation.sign_speeds import mean_speeds, step_speeds
 from signkin.coarticulation.synthesis import Sign
 from signkin.coarticulation.transitions import SAME_INSTANT_S
 from signkin.corpus import Corpus
@@ -137,12 +137,13 @@ class Database:
         sign = self.tokens[token].sign
         take = sign.recording
         interval = Interval(sign.start_s, sign.end_s, sign.gloss, "")
-        linear, angular = sign_speeds(*self._smooth(take.name), [interval], take)[0]
+        linear, angular = mean_speeds(self._step_speeds(take.name), [interval], take)[0]
         return float(linear), float(angular) * self.angle
 
     @cache  # noqa: B019
-    def _smooth(self, take: str) -> tuple[Array, Array | None]:
-        return smoothed(self.recordings[take], self.turns[take], self.lowpass)
+    def _step_speeds(self, take: str) -> tuple[Array, Array]:
+        recording = self.recordings[take]
+        return step_speeds(*smoothed(recording, self.turns[take], self.lowpass), recording.rate_hz)
 
 
 def database(

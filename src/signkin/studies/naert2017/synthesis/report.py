@@ -33,11 +33,37 @@ def views(folder: Path, unit: str) -> Iterator[View]:
             part = frame[frame["material"] == material]
             if len(part):
                 yield _summary(part, material, path, unit)
+    path = folder / "synthesis" / "readings_synthesis.csv"
+    if path.is_file():
+        yield _readings(path)
     path = folder / "synthesis" / "utterances.csv"
     if path.is_file():
         frame = read_table(path, "utterances")
         if len(frame):
             yield _utterances(frame, path, folder / "synthesis" / "utterances", unit)
+
+
+def _readings(path: Path) -> TableView:
+    return TableView(
+        label="",
+        title="Synthesis with two rules of ours, and as printed",
+        caption="Orientations along the arc (slerp) or linear, of captured transitions "
+        "interpolated in their true time; signs of 300 random lists of five glosses chosen for the "
+        "whole list (chain) or each the nearest to the one before (greedy). No claim rests on "
+        "either.",
+        frame=read_table(path, "readings_synthesis"),
+        columns={
+            "rule": ("rule", ""),
+            "reading": ("how", ""),
+            "printed": ("as printed", ""),
+            "measure": ("measure", ""),
+            "unit": ("unit", ""),
+            "mean": ("mean", ".4g"),
+            "n": ("n", "d"),
+            "note": ("note", ""),
+        },
+        file=path,
+    )
 
 
 def chapters(

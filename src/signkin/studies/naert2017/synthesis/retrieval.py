@@ -14,10 +14,13 @@ from signkin.errors import SignkinError, listed
 from signkin.studies.naert2017.synthesis.database import Database
 
 
-def retrieved(base: Database, glosses: Sequence[str], how: str) -> list[int]:
+def retrieved(
+    base: Database, glosses: Sequence[str], how: str, scale: Scale | None = None
+) -> list[int]:
     """Return the token taken for each gloss; how: chain, greedy or first (config's `retrieval`).
 
-    An unknown gloss is an error that suggests near ones.
+    scale: `distance_scale(base)`, where it is known already. An unknown gloss is an error that
+    suggests near ones.
     """
     known = base.glosses()
     for gloss in glosses:
@@ -26,7 +29,7 @@ def retrieved(base: Database, glosses: Sequence[str], how: str) -> list[int]:
     slots = [known[gloss] for gloss in glosses]
     if how == "first":
         return [slot[0] for slot in slots]
-    scale = distance_scale(base)
+    scale = scale or distance_scale(base)
     costs = []
     for before, after in itertools.pairwise(slots):
         cost = distances(base.candidates(before), base.candidates(after), scale)

@@ -1,0 +1,62 @@
+"""What jobs import, imported: the state in which the fork server (forked.py) forks them.
+
+The modules that the scripts of workflow/ name, and those libraries that modules import where they
+need them. What cannot be imported is left to the job that wants it, which tells of it.
+"""
+
+from __future__ import annotations
+
+import ast
+from contextlib import suppress
+from importlib import import_module
+from io import BytesIO
+
+from signkin.checkout import workflow_home
+
+LIBRARIES = (
+    "snakemake.script",
+    "matplotlib.pyplot",
+    "matplotlib.backends.backend_pdf",
+    "matplotlib.backends.backend_svg",
+    "numpy.random",
+    "pandas",
+    "pyarrow.parquet",
+    "scipy.optimize",
+    "scipy.signal",
+    "scipy.spatial.transform",
+    "scipy.special",
+    "scipy.stats",
+    "seaborn",
+)
+
+
+def names() -> list[str]:
+    """Return the names of the modules, libraries first; of scripts, all that could be one."""
+    found: set[str] = set()
+    for path in sorted((workflow_home() / "workflow" / "scripts").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("signkin"):
+                found |= {f"{node.module}.{alias.name}" for alias in node.names}
+                found.add(str(node.module))
+    return [*LIBRARIES, *sorted(found)]
+
+
+def _draw() -> None:
+    """Draw a figure as jobs do: fonts, formulas and what writes SVG and PDF are read by then."""
+    from matplotlib import pyplot as plt
+
+    from signkin.figures.style import paper_style
+
+    with paper_style():
+        figure, ax = plt.subplots()
+        ax.set_title(r"$\beta = -\frac{1}{3}$ –")
+        for kind in ("svg", "pdf"):
+            figure.savefig(BytesIO(), format=kind)
+        plt.close(figure)
+
+
+for name in names():
+    with suppress(Exception):  # `signkin.tables.read_table` is no module
+        import_module(name)
+with suppress(Exception):
+    _draw()

@@ -1,0 +1,130 @@
+"""What a SLURM cluster lacks is said before the first job, and how its jobs are asked for.
+
+Snakemake's executor asks `sacct` how jobs stand wherever that command is installed. Where SLURM
+keeps no accounts, `sacct` answers nothing, and the run would wait for ever: `squeue` is asked then.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from signkin.errors import SignkinError
+from signkin.yaml_file import read_yaml
+
+STATUS = "--slurm-status-command"
+# The executor asks squeue 40 s after a job was handed over, and up to three times.
+LEAST_JOB_AGE_S = 120
+PROFILE_FILES = ("profile.yaml", "config.yaml", "config.v8+.yaml")
+
+
+def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
+    """Return what to add to Snakemake's arguments where jobs go to SLURM; nothing where not.
+
+    extra: arguments for Snakemake; profiles are looked up from a folder. Raises SignkinError where
+    there is no SLURM, its controller does not answer, finished jobs cannot be asked for, or a
+    partition of the profile does not exist.
+    """
+    profiles = [folder / name for name in _values(extra, "--profile", "--workflow-profile")]
+    settings = [_profile(path) for path in profiles]
+    wanted = _values(extra, "--executor", "-e") or [str(s.get("executor")) for s in settings]
+    if "slurm" not in wanted:
+        return []
+    if shutil.which("sbatch") is None:
+        raise SignkinError(
+            "jobs are to go to SLURM, and this machine has no command sbatch",
+            expected="a node of the cluster from which jobs are submitted",
+            todo="Run there, or leave out the SLURM profile to run on this machine.",
+        )
+    config = _asked("scontrol", "show", "config")
+    for options in settings:
+        _check_partitions(options)
+    if _values(extra, STATUS) or _config(config, "AccountingStorageType") not in (
+        "accounting_storage/none", "(null)", "",
+    ):  # fmt: skip
+        return []
+    age = int(re.sub(r"\D.*", "", _config(config, "MinJobAge")) or 0)
+    if age < LEAST_JOB_AGE_S:
+        raise SignkinError(
+            f"SLURM keeps no accounts (AccountingStorageType) and forgets a finished job after "
+            f"{age} s (MinJobAge): whether a job succeeded could not be told",
+            expected=f"accounts (slurmdbd), or MinJobAge of at least {LEAST_JOB_AGE_S} s",
+            todo="Ask the cluster's administrator for one of the two.",
+        )
+    return [STATUS, "squeue"]
+
+
+def _values(words: Sequence[str], *options: str) -> list[str]:
+    """Return the values of command line options, given as two words or with `=`."""
+    out = []
+    for i, word in enumerate(words):
+        if word == "--":
+            break
+        name, equals, value = word.partition("=")
+        if name in options:
+            out += [value] if equals else list(words[i + 1 : i + 2])
+    return out
+
+
+def _profile(path: Path) -> dict[str, object]:
+    """Return a profile's settings; none where it is not there: Snakemake tells of that."""
+    for file in (path / name for name in PROFILE_FILES):
+        if file.is_file():
+            content = read_yaml(file)
+            return content if isinstance(content, dict) else {}
+    return {}
+
+
+def _asked(*command: str) -> str:
+    """Return what one of SLURM's commands prints."""
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, timeout=60, check=False
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise SignkinError(
+            f"SLURM does not answer `{' '.join(command)}`: {type(error).__name__}",
+            todo="Try the command by hand.",
+        ) from error
+    if done.returncode:
+        lines = (done.stderr.strip() or done.stdout.strip() or "no message").splitlines()
+        raise SignkinError(
+            f"SLURM does not answer `{' '.join(command)}`: {lines[0]}",
+            todo="Try the command by hand: the cluster's controller (slurmctld) may be down.",
+        )
+    return done.stdout
+
+
+def _config(text: str, key: str) -> str:
+    found = re.search(rf"^{key}\s*=\s*(.*)$", text, re.MULTILINE)
+    return found.group(1).strip() if found else ""
+
+
+def _check_partitions(options: dict[str, object]) -> None:
+    """Refuse a partition that the cluster does not have."""
+    named = _partitions(options.get("default-resources")) | {
+        name
+        for step in _mapping(options.get("set-resources")).values()
+        for name in _partitions(step)
+    }
+    if not named:
+        return
+    there = set(_asked("sinfo", "--noheader", "--format=%R").split())
+    if missing := sorted(named - there):
+        raise SignkinError(
+            f"the profile's slurm_partition {missing[0]!r} is not a partition of this cluster",
+            expected=", ".join(sorted(there)) or "a partition (the cluster has none)",
+            todo="Correct slurm_partition in the profile.",
+        )
+
+
+def _mapping(value: object) -> dict[str, object]:
+    return value if isinstance(value, dict) else {}
+
+
+def _partitions(resources: object) -> set[str]:
+    name = _mapping(resources).get("slurm_partition")
+    return set(str(name).split(",")) if name else set()
