@@ -78,6 +78,8 @@ CALLS: dict[str, Callable[[int], Call]] = {
         "",
     ),
     "standard_error": lambda n: ({"n": str(n), "sd": "1.2", "se": "0.3"}, ""),
+    "effect_conversion": lambda n: (
+        {"effect": "odds_ratio", "value": "9.9", "to": "g", "equals": ".1", "n": [str(n)] * 2}, ""),
     "confidence_interval": lambda n: (
         {"estimate": "0.4", "low": "0.1", "high": "0.7", "df": str(n), "p": ".9"}, ""),
     "regression_row": lambda n: ({"b": "0.42", "se": "0.16", "t": "2.6", "df": str(n)}, ""),
