@@ -9,7 +9,9 @@ from scipy.special import logsumexp
 
 from signkin import SignkinError
 from signkin.binning import Posterior, Prior, fit, fit_many, segment_log_evidence
+from signkin.binning.band import fit_order_in_band
 from signkin.binning.posterior import greedy_maxima
+from signkin.binning.segmentation_prior import log_prior_of
 
 PRIOR = Prior(noise_sd=0.5)
 seeds = st.integers(0, 2**32 - 1)
@@ -211,6 +213,31 @@ def test_the_band_of_a_long_series_agrees_with_every_count(longest, size):
         assert band.expected_trajectory(order) == pytest.approx(
             every.expected_trajectory(order), abs=1e-6 * np.abs(x).max()
         )
+
+
+def test_more_segmentations_than_a_double_can_count():
+    """Where all are about as good, sums in units of the best path overflow."""
+    bins, longest = 4_000, 16
+    evidence = np.random.default_rng(5).normal(0, 0.3, (1, bins, longest))
+    for n in range(1, longest):
+        evidence[0, bins - n :, n] = -np.inf
+    log_prior = log_prior_of(bins, longest)
+    by_count, probability, boundary = np.empty((3, bins))
+    _, lost, left_out, price = fit_order_in_band(
+        evidence[0].copy(), log_prior, 300, by_count, probability, boundary
+    )
+    counts = np.flatnonzero(np.isfinite(by_count))
+    ways = by_count[counts] - log_prior[counts]
+    log_sum = np.zeros(bins + 1)
+    for q in range(1, bins + 1):
+        n = np.arange(min(longest, q))
+        log_sum[q] = logsumexp(log_sum[q - 1 - n] + evidence[0, q - 1 - n, n] - price)
+    kept = logsumexp(ways - (counts + 1) * price)
+    assert kept == pytest.approx(log_sum[-1] + np.log1p(-left_out), abs=1e-9)
+    assert left_out < 1e-4
+    assert lost == 0
+    mean = 1 + probability[counts] @ counts
+    assert boundary.sum() == pytest.approx(mean, rel=1e-11)
 
 
 def test_the_bound_of_the_band_says_something():

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 # At each bin of a long series, numbers of segments within this of the best path's are kept; the
 # band is widened until the bound on what it leaves out is below BAND_CUT_MASS.
 BAND = 32
-BAND_CUT_MASS = 1e-6
+BAND_CUT_MASS = 1e-9
 TAIL_STEPS = 4
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 
@@ -92,7 +92,7 @@ def in_band(evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int) 
     boundary = np.empty((rows, bins))
     log_evidence, cut = np.empty((2, rows))
     for i, d in enumerate(wanted):
-        half_width = BAND
+        half_width, before = BAND, (0, np.inf)
         while True:
             kept = evidence[d].copy()
             log_evidence[i], lost, left_out, price = band.fit_order_in_band(
@@ -102,9 +102,11 @@ def in_band(evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int) 
             cut[i] = _band_cut(
                 evidence[d], log_by_count[i], log_prior, log_evidence[i], left_out, price
             )
-            if cut[i] <= BAND_CUT_MASS or 2 * half_width >= bins:
+            # What a wider band lacks, too, is below what sums can hold: widening adds nothing.
+            held = (int(np.isfinite(log_by_count[i]).sum()), left_out)
+            if cut[i] <= BAND_CUT_MASS or 2 * half_width >= bins or (held[0] and held == before):
                 break
-            half_width *= 2
+            half_width, before = 2 * half_width, held
         evidence[d] = kept
     return Found(log_by_count, probability, boundary, log_evidence, cut, evidence)
 
@@ -124,6 +126,8 @@ def _band_cut(
     bins = len(evidence)
     m = np.arange(bins)
     inside = np.flatnonzero(np.isfinite(log_by_count))
+    if len(inside) == 0:
+        return 1.0
     low, high = int(inside[0]), int(inside[-1]) + 1
     at_price = log_by_count[low:high] - log_prior[low:high] - (inside + 1) * price
     strayed = np.full(bins, np.inf)
@@ -131,14 +135,31 @@ def _band_cut(
     strayed += (m + 1) * price
     bound = np.full(bins, np.inf)
     share = np.inf
-    for step in range(TAIL_STEPS):
-        for tilt in _prices(bins, low, high, step):
+    for step in range(TAIL_STEPS + 1):
+        last = step == TAIL_STEPS
+        tilts = _edge_prices(log_by_count, log_prior, low, high) if last else None
+        for tilt in tilts or _prices(bins, low, high, min(step, TAIL_STEPS - 1)):
             bound = np.minimum(bound, _log_bound(evidence, tilt) + (m + 1) * tilt)
         lacking = np.minimum(bound, strayed) + log_prior - log_evidence
         share = float(np.exp(np.minimum(0.0, log_sum(lacking))))
         if share <= BAND_CUT_MASS:
             break
     return share
+
+
+def _edge_prices(log_by_count: Floats, log_prior: Floats, low: int, high: int) -> list[float]:
+    """Return the prices at which counts near the window's ends weigh most.
+
+    Of a very long series the likely counts are so few of all that prices for other counts bound
+    nothing just outside of the window. Near its very ends sums run out of digits.
+    """
+    ways = log_by_count[low:high] - log_prior[low:high]
+    inward = max(1, len(ways) // 10)
+    if len(ways) < 2 * inward + 2:
+        return []
+    return [
+        float(ways[inward + 1] - ways[inward]), float(ways[-1 - inward] - ways[-2 - inward]),
+    ]  # fmt: skip
 
 
 def _prices(bins: int, low: int, high: int, step: int) -> list[float]:

@@ -1,8 +1,8 @@
 """Compiled: one order of a long series, with numbers of segments near the likely one only.
 
 Lanes are eight numbers of segments. At each bin those are kept that lie in a band around the
-best path's number; posterior.py bounds what the band leaves out. Arrays are (T, W), evidence of
-the segment of n bins from p at [p, n - 1].
+best path's number (or the mean); posterior.py bounds what the band leaves out. Arrays are (T, W),
+evidence of the segment of n bins from p at [p, n - 1].
 """
 
 from __future__ import annotations
@@ -30,6 +30,9 @@ from signkin.binning.sum_product import SLOW
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741
+
+PRICE_STEPS = 20
+HIGHEST_SUM = 1e200  # sums of suffixes exceed that of the whole a little
 
 
 @kernel
@@ -139,11 +142,69 @@ def all_ways(weight: F) -> float:
 
 
 @kernel
+def log_sums(evidence: F, penalty: float, out: F) -> None:
+    """Fill out[p], the log of the sum over all segmentations of p bins, each segment paying."""
+    bins, longest = evidence.shape
+    out[0] = 0.0
+    for q in range(1, bins + 1):
+        top = -np.inf
+        for n in range(min(longest, q)):
+            top = max(top, out[q - 1 - n] + evidence[q - 1 - n, n])
+        value = 0.0
+        if top > -np.inf:
+            for n in range(min(longest, q)):
+                value += math.exp(out[q - 1 - n] + evidence[q - 1 - n, n] - top)
+            out[q] = top - penalty + math.log(value)
+        else:
+            out[q] = -np.inf
+
+
+@kernel
+def scaled_to_fit(evidence: F, penalty: float, best: F, weight: F) -> tuple[float, bool]:
+    """Scale evidence so that sums over segmentations can be held.
+
+    Returns the sum over all, and whether the unit had to be another than the best path.
+
+    In units of the best path, where it fits: of a very long series nearly as good segmentations
+    are more than a double can count. There the unit is the sum itself, bin by bin: a weight is the
+    probability of a segment given where it ends, and no sum exceeds 1. `best` becomes the unit.
+    """
+    scaled_evidence(evidence, penalty, best, weight)
+    sum_ = all_ways(weight)
+    other = not sum_ < HIGHEST_SUM
+    if other:
+        log_sums(evidence, penalty, best)
+        scaled_evidence(evidence, penalty, best, weight)
+        sum_ = all_ways(weight)
+    return sum_, other
+
+
+@kernel
+def mean_segments_to_go(weight: F, out: I) -> None:
+    """Fill out[p] with how many segments of all bins end behind bin p - 1, in the mean.
+
+    weight: probabilities of a segment given where it ends (`scaled_to_fit`). Where there are that
+    many segmentations, the best path has another number of segments than most of them.
+    """
+    bins, longest = weight.shape
+    so_far = np.zeros(bins + 1)
+    for q in range(1, bins + 1):
+        value = 0.0
+        for n in range(min(longest, q)):
+            value += weight[q - 1 - n, n] * (so_far[q - 1 - n] + 1.0)
+        so_far[q] = value
+    latest = 0.0  # a later bin has no more to go
+    for p in range(bins + 1):
+        latest = max(latest, so_far[p])
+        out[p] = round(max(0.0, so_far[bins] - latest))
+
+
+@kernel
 def log_all_ways(evidence: F, penalty: float, best: F, weight: F) -> float:
     """Return the log of the sum over all segmentations, each segment paying the penalty."""
     best_path(evidence, penalty, best)
-    scaled_evidence(evidence, penalty, best, weight)
-    return best[len(best) - 1] + math.log(all_ways(weight))
+    sum_, _ = scaled_to_fit(evidence, penalty, best, weight)
+    return best[len(best) - 1] + math.log(sum_)
 
 
 @kernel
@@ -154,7 +215,8 @@ def counts_in_band(
     """Fill log_by_count for the counts near the likely one; -inf for the others.
 
     For long series: at each bin only numbers of segments within `half_width` of the best
-    path's are kept. log_prior, log_by_count: (T,). ways: (T + 1, columns_for(2 half_width)).
+    path's are kept (or of the mean: `scaled_to_fit`). log_prior, log_by_count: (T,). ways:
+    (T + 1, columns_for(2 half_width)).
     Leaves a pass ready for `posterior_of_order`. Returns the share of the sum over all
     segmentations, at the pass's price of a segment, that the band and the window of counts
     leave out, and the penalty.
@@ -170,9 +232,20 @@ def counts_in_band(
         penalty = price
     best_path(evidence, penalty, best)
     segments_to_go(evidence, penalty, best, to_go)
+    total_ways, other = scaled_to_fit(evidence, penalty, best, weight)
+    if other:
+        mean_segments_to_go(weight, to_go)
+        for _ in range(PRICE_STEPS):
+            price = price_of_boundary(bins, to_go[0] - 1)
+            if abs(price - penalty) < 0.02:
+                break
+            penalty = price
+            log_sums(evidence, penalty, best)
+            scaled_evidence(evidence, penalty, best, weight)
+            mean_segments_to_go(weight, to_go)
+        total_ways = all_ways(weight)
     for p in range(bins + 1):
         offset[p] = max(0, (to_go[p] - half_width) // WIDTH * WIDTH)
-    scaled_evidence(evidence, penalty, best, weight)
     ways_on(weight, offset, ways)
     kept = 0.0
     for m in range(bins):
@@ -182,7 +255,7 @@ def counts_in_band(
         if 0 <= m < bins and ways[0, c] >= UNDERFLOW:
             kept += ways[0, c]
             log_by_count[m] = math.log(ways[0, c]) + best[bins] + (m + 1) * penalty + log_prior[m]
-    return max(0.0, 1.0 - kept / all_ways(weight)), penalty
+    return max(0.0, 1.0 - kept / total_ways), penalty
 
 
 @kernel
