@@ -248,8 +248,9 @@ def _short(owner: Owner) -> Section:
     many = int((owner.todo["rank"] < 4).sum())
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
-        f"{counted_words(many, 'thing', 'things')} to look at; because of {grave} of them results "
-        "may be wrong."
+        f"{counted_words(many, 'thing', 'things')} to look at; "
+        + (f"because of {grave} of them results may be wrong." if grave
+           else "none makes results wrong.")
         if many else "Nothing in it looks odd."
     )  # fmt: skip
     return Section(

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from signkin.figures import binning as drawing
 from signkin.figures.style import WIDTH_IN
 from signkin.report.drawn import Drawn
+from signkin.statistics.findings import p_text
 from signkin.studies.endres2013.figures.points import (
     frame_of,
     group,
@@ -67,7 +68,7 @@ def caption(orders: pd.DataFrame, rates: pd.DataFrame, tests: pd.DataFrame) -> s
     """Return what stands below the figure. rates, tests: tables `hit_rates`, `order_tests`."""
     told = "; ".join(
         f"{row.test}, {row.question}: "
-        + (f"statistic {row.statistic:.1f}, p = {row.p:.1e}" if not row.note else str(row.note))
+        + (f"statistic {row.statistic:.1f}, {p_text(row.p)}" if not row.note else str(row.note))
         for row in tests.itertuples()
     )
     n = int(group(orders, POWERLAW)["n"].max())
