@@ -44,7 +44,7 @@ def test_it_tells_where_the_two_papers_agree(audit_page):
     assert "manual tags are hit above chance on 2 of 2 wrists" in section.inner_text()
     assert section.locator("tbody tr").count() == 6
     claim = audit_page.locator(".exhibit", has=audit_page.locator(".label", has_text="N19")).first
-    assert claim.locator("td", has_text="beside the claim").count() == 3
+    assert claim.locator("td", has_text="beside the claim").count() == 4
 
 
 def test_its_figures_are_drawn(audit_page):

@@ -260,7 +260,7 @@ def test_it_fits_the_window_and_every_plot_is_drawn(opened, width, scheme):
     page = opened("tagged/one", **window)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     sizes = page.locator(".uplot canvas").evaluate_all("c => c.map(e => [e.width, e.height])")
-    assert len(sizes) == 4  # two speeds, tags, the axis of time
+    assert len(sizes) == 6  # two speeds, two densities of boundaries, tags, the axis of time
     assert all(across > 300 and high > 20 for across, high in sizes)
     dark = page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 24, 27)"
     assert dark == (scheme == "dark")
@@ -274,7 +274,7 @@ def test_it_fits_the_window_and_every_plot_is_drawn(opened, width, scheme):
 
 def test_pages_of_a_run_are_light_and_whole(simulated_run, browser):
     folder = simulated_run.results / "report/recordings"
-    for name, panels in (("lsf-sim/lsf-sim-1", 5), ("isl-sim", 0)):
+    for name, panels in (("lsf-sim/lsf-sim-1", 6), ("isl-sim", 0)):
         file = folder / f"{name}.html"
         assert file.stat().st_size < MOST_BYTES
         page = browser.new_page()

@@ -105,10 +105,12 @@ def range_possible(rng):
 
 @draw
 def closure(rng):
-    # Small enough to count, mostly; a wide scale is answered by "too many".
+    # Small enough to count in milliseconds, but for one in fifty: large samples on wide scales are
+    # counted for seconds, or answered by "too many".
     low, ddof = int(rng.integers(0, 2)), int(rng.integers(2))
-    high = low + int(rng.choice([1, 4, 6, 10]))
-    values = np.rint(low + (high - low) * rng.beta(*rng.uniform(0.3, 3, 2), rng.integers(2, 40)))
+    steps = int(rng.choice([1, 4, 6, 10]))
+    high, most = low + steps, 40 if steps < 4 or rng.random() < 0.02 else 60 // steps
+    values = np.rint(low + steps * rng.beta(*rng.uniform(0.3, 3, 2), rng.integers(2, most)))
     places = int(rng.integers(1, 4))
     spread = put(rng, values.std(ddof=ddof), places)
     return {"mean": put(rng, values.mean(), places), "sd": spread, "n": str(len(values)),
