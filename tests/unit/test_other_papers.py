@@ -4,6 +4,7 @@ import time
 
 import pytest
 
+from signkin.__main__ import main
 from signkin.audit.ledger import PRINT, audit
 from signkin.audit.paper import read_paper
 from signkin.audit.registry import Evidence
@@ -52,3 +53,11 @@ def test_what_scores_print_so(ledgers):
     assert "inconsistent" not in set(checks["verdict"])
     row = checks[(checks["check"] == "closure") & (checks["item"] == "MAS, cortical stroke")]
     assert row["why"].item().startswith("3 samples on the grain print so; each has at least 4 of 0")
+
+
+def test_a_reading_beside_a_consistent_claim_is_no_contradiction(root, tmp_path, capsys):
+    assert main(["audit", str(root / "papers/grammar2017"), "--to", str(tmp_path / "page")]) == 1
+    page = (tmp_path / "page/index.html").read_text(encoding="utf-8")
+    told = page.split('id="contradictions"')[1].split("</section>")[0]
+    assert "the column signers adds up to 31" in told
+    assert "test_of_groups" not in told

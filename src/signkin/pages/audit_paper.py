@@ -167,8 +167,14 @@ def _verdicts(paper: Paper, ledger: Ledger, folder: Path) -> Section:
 
 
 def _contradictions(paper: Paper, ledger: Ledger) -> list[Section]:
+    claims = ledger.claims[ledger.claims["evidence"] == PRINT]
+    accused = claims.loc[claims["verdict"] == INCONSISTENT, "id"]
+    # What stands beside a claim, as another reading of it, contradicts nothing.
     found = ledger.details[
-        (ledger.details["verdict"] == INCONSISTENT) & (ledger.details["evidence"] == PRINT)
+        (ledger.details["verdict"] == INCONSISTENT)
+        & (ledger.details["evidence"] == PRINT)
+        & ledger.details["id"].isin(accused)
+        & (ledger.details["counts"] == "yes")
     ]
     if found.empty:
         text = ["No check finds two printed numbers that cannot both be right."]
