@@ -144,7 +144,7 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
     from signkin.lock import held
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
-    from signkin.slurm import slurm_arguments
+    from signkin.slurm import executors, slurm_arguments
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -152,7 +152,7 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
         home = workflow_home()
         if (folder / "config.yaml").is_file():
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
-        if not FORKS or any(word.startswith("--executor") or "slurm" in word for word in extra):
+        if not FORKS or executors(extra, folder):
             refuse_unquotable(sys.executable)
         extra = [*slurm_arguments(extra, folder), *extra]
         if find_spec("snakemake") is None:

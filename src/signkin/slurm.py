@@ -28,10 +28,7 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
     there is no SLURM, its controller does not answer, finished jobs cannot be asked for, or a
     partition of the profile does not exist.
     """
-    profiles = [folder / name for name in _values(extra, "--profile", "--workflow-profile")]
-    settings = [_profile(path) for path in profiles]
-    wanted = _values(extra, "--executor", "-e") or [str(s.get("executor")) for s in settings]
-    if "slurm" not in wanted:
+    if "slurm" not in executors(extra, folder):
         return []
     if shutil.which("sbatch") is None:
         raise SignkinError(
@@ -40,7 +37,7 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
             todo="Run there, or leave out the SLURM profile to run on this machine.",
         )
     config = _asked("scontrol", "show", "config")
-    for options in settings:
+    for options in _profiles(extra, folder):
         _check_partitions(options)
     if _values(extra, STATUS) or _config(config, "AccountingStorageType") not in (
         "accounting_storage/none", "(null)", "",
@@ -55,6 +52,16 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
             todo="Ask the cluster's administrator for one of the two.",
         )
     return [STATUS, "squeue"]
+
+
+def executors(extra: Sequence[str], folder: Path) -> list[str]:
+    """Return what is to run jobs instead of this machine, by arguments for Snakemake."""
+    told = [str(options.get("executor") or "") for options in _profiles(extra, folder)]
+    return _values(extra, "--executor", "-e") or [name for name in told if name]
+
+
+def _profiles(extra: Sequence[str], folder: Path) -> list[dict[str, object]]:
+    return [_profile(folder / name) for name in _values(extra, "--profile", "--workflow-profile")]
 
 
 def _values(words: Sequence[str], *options: str) -> list[str]:

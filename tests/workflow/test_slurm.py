@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import tempfile
 import threading
 import time
@@ -125,5 +124,4 @@ def test_a_partition_that_is_not_there_is_told_before_the_first_job(mini, cluste
         "signkin: the profile's slurm_partition 'short' is not a partition of this cluster; "
         "expected all. Correct slurm_partition in the profile."
     )
-    assert not subprocess.run(["squeue", "--noheader"], capture_output=True, text=True,
-                              check=True).stdout  # fmt: skip
+    assert not asked("squeue", "--noheader")

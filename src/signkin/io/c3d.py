@@ -9,7 +9,6 @@ as angles, forces, moments or powers. The reference library in C++, ezc3d, reads
 from __future__ import annotations
 
 import io
-import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -17,6 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from signkin.errors import SignkinError, listed
+from signkin.io.binary import damage_told
 from signkin.io.markers import few_frames, pick_markers, unit_of, zeros_to_gaps
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import content_of, encoding_of, quoted
@@ -103,18 +103,9 @@ def opened(path: Path, header: str, read: Callable[[Any], T]) -> T:
             "the library c3d is not there", file=path, todo="pip install 'signkin[c3d]'"
         ) from None
     content = content_of(path)
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            return read(_reader(c3d, content, header))
-    except SignkinError:
-        raise
-    except Exception as error:  # the library lets struct, index and assertion errors through
-        raise SignkinError(
-            f"not readable as a C3D file ({type(error).__name__}: {error})",
-            place=f"{len(content)} bytes",
-            expected="a whole file; this one may be damaged",
-        ) from error
+    whole = "a whole file; this one may be damaged"
+    with damage_told("a C3D file", content, whole), np.errstate(all="ignore"):
+        return read(_reader(c3d, content, header))
 
 
 def _reader(c3d: Any, content: bytes, header: str) -> Any:

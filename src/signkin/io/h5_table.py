@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.binary import damage_told
 from signkin.io.text import content_of, quoted
 
 MOST_VALUES = 200_000_000  # of a table; more fit no computer's memory twice
@@ -55,23 +56,18 @@ def read_h5_table(path: Path, key: str | None = None) -> H5Table:
             "pandas.read_hdf('a.h5').to_csv('a.csv').",
         ) from None
     content = content_of(path)
-    try:
-        with h5py.File(io.BytesIO(content), "r") as file:
-            name = _chosen(file, key)
-            group = file[name]
-            kind = _text(group.attrs.get("pandas_type", b""))
-            if kind == "frame_table":
-                return _of_table(group, name)
-            if kind == "frame":
-                return _of_blocks(group, name)
-    except SignkinError:
-        raise
-    except Exception as error:  # the library lets key, type, OS and value errors through
-        raise SignkinError(
-            f"not readable as a table of pandas ({type(error).__name__}: {str(error)[:200]})",
-            place=f"{len(content)} bytes",
-            expected="a whole .h5 file as DeepLabCut writes it",
-        ) from error
+    whole = "a whole .h5 file as DeepLabCut writes it"
+    with (
+        damage_told("a table of pandas", content, whole),
+        h5py.File(io.BytesIO(content), "r") as file,
+    ):
+        name = _chosen(file, key)
+        group = file[name]
+        kind = _text(group.attrs.get("pandas_type", b""))
+        if kind == "frame_table":
+            return _of_table(group, name)
+        if kind == "frame":
+            return _of_blocks(group, name)
     raise SignkinError(
         f"the table {name} is of the type {quoted(kind)}",
         place="HDF5",

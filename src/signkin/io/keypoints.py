@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import io
 import math
-import warnings
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.errors import SignkinError, listed
+from signkin.io.binary import damage_told
 from signkin.io.chosen import pick
 from signkin.io.landmarks import landmark_names
 from signkin.io.points import Points, check_confidence, source_motion
@@ -105,35 +105,25 @@ def _as_text(joints: Mapping[str, Any]) -> dict[str, str]:
 def _array(path: Path, key: str | None) -> NDArray[np.float64]:
     """Return the array of a file, never more of it than the file holds, and never an object."""
     content = content_of(path)
-    try:
-        if content[:2] == b"PK":
+    what, whole = "an array of numpy", "a whole .npy or .npz file of numbers"
+    if content[:2] == b"PK":
+        with damage_told(what, content, whole):
             content = _member(content, key)
+    with damage_told(what, content, whole):
         stream = io.BytesIO(content)
         version = np.lib.format.read_magic(stream)
         read = {(1, 0): np.lib.format.read_array_header_1_0,
                 (2, 0): np.lib.format.read_array_header_2_0}.get(version)  # fmt: skip
         if read is None:
             raise ValueError(f"version {version}")
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a header of Python 2 is read all the same
-            shape, _, kind = read(stream)
+        shape, _, kind = read(stream)
         if kind.hasobject or kind.kind not in "fiu":
             raise ValueError(f"an array of {kind}, not of numbers")
         # The header may promise any shape: it is held to the bytes that follow it.
         if any(n < 0 for n in shape) or math.prod(shape) * kind.itemsize > len(content):
             raise ValueError(f"the shape {shape} for {len(content)} bytes")
         stream.seek(0)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            array = np.lib.format.read_array(stream, allow_pickle=False)
-    except SignkinError:
-        raise
-    except Exception as error:  # zip, struct, syntax and token errors of a damaged file
-        raise SignkinError(
-            f"not readable as an array of numpy ({type(error).__name__}: {error})",
-            place=f"{len(content)} bytes",
-            expected="a whole .npy or .npz file of numbers",
-        ) from error
+        array = np.lib.format.read_array(stream, allow_pickle=False)
     if array.ndim not in (3, 4) or 0 in array.shape:
         raise SignkinError(
             f"an array of shape {array.shape}",

@@ -17,7 +17,6 @@ says which one is the recording; trackers may change their order between frames.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,7 @@ from numpy.typing import NDArray
 from pose_format import Pose
 
 from signkin.errors import SignkinError, listed
+from signkin.io.binary import damage_told
 from signkin.io.chosen import pick
 from signkin.io.registry import SourceMotion, motion_reader
 from signkin.io.text import content_of, quoted
@@ -66,16 +66,8 @@ def read_pose(
 
 def _load(path: Path) -> Any:
     content = content_of(Path(path))
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            pose = Pose.read(content)
-    except Exception as error:  # the library lets struct, value and index errors through
-        raise SignkinError(
-            f"not readable as a .pose file ({type(error).__name__}: {error})",
-            place=f"{len(content)} bytes",
-            expected="a whole file; this one may be truncated",
-        ) from error
+    with damage_told("a .pose file", content, "a whole file; this one may be truncated"):
+        pose = Pose.read(content)
     if pose.body.data.shape[0] < 2 or pose.body.data.shape[1] < 1:
         raise SignkinError(
             f"{pose.body.data.shape[0]} frames of {pose.body.data.shape[1]} people",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -36,13 +36,11 @@ def boundaries_section(owner: Owner) -> Section:
         "where its boundary probably is. The paper's rule (the nearest minimum) stays what figures "
         "and tables are made with.",
     )
-    views: list[View] = []
-    for title, make in (
-        ("Tags and where their boundaries are", _figure),
-        ("What changes with tags moved, or uncertain", _durations),
-        ("Every way of finding boundaries against the manual tags", _scores),
-    ):
-        views += attempted(title, partial(make, owner, title))
+    views = _views(owner, {
+        "Tags and where their boundaries are": _figure,
+        "What changes with tags moved, or uncertain": _durations,
+        "Every way of finding boundaries against the manual tags": _scores,
+    })  # fmt: skip
     return Section("boundaries", "Where signs start and end, and how sure that is", text=text,
                    exhibits=views)  # fmt: skip
 
@@ -50,14 +48,23 @@ def boundaries_section(owner: Owner) -> Section:
 def agreement_section(owner: Owner) -> Section:
     """Return the section on several annotators of a corpus."""
     text = [*_in_words(owner)]
-    views: list[View] = []
-    for title, make in (
-        ("Does refinement bring annotators nearer to each other?", _refined),
-        ("Offsets between annotators", _offsets),
-        ("Agreement of annotators", _agreement),
-    ):
-        views += attempted(title, partial(make, owner, title))
+    views = _views(owner, {
+        "Does refinement bring annotators nearer to each other?": _refined,
+        "Offsets between annotators": _offsets,
+        "Agreement of annotators": _agreement,
+    })  # fmt: skip
     return Section("annotators", "Agreement of annotators", text=text, exhibits=views)
+
+
+def _views(
+    owner: Owner, makers: Mapping[str, Callable[[Owner, str], Iterator[View]]]
+) -> list[View]:
+    """Return the views by title that can be made."""
+    return [
+        view
+        for title, make in makers.items()
+        for view in attempted(title, partial(make, owner, title))
+    ]
 
 
 def _figure(owner: Owner, title: str) -> Iterator[View]:

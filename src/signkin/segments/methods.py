@@ -11,10 +11,17 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from signkin.segments.boundaries import boundary_hits, offsets_s
-from signkin.segments.frames import RATE_HZ, boundary_f1, frame_labels, mean_f1, segment_f1
+from signkin.segments.frames import RATE_HZ
 from signkin.segments.gamma import DISORDER, disorder, gamma_of
-from signkin.segments.lengths import covering, overlap, share_of_segments
-from signkin.segments.scores import COLUMNS, Key, interval_of, shuffled
+from signkin.segments.scores import (
+    COLUMNS,
+    Key,
+    interval_of,
+    of_frames,
+    of_hits,
+    of_segments,
+    shuffled,
+)
 
 Floats = NDArray[np.float64]
 TOLERANCES_S = (0.05, 0.1)
@@ -93,34 +100,15 @@ def _scores(parts: Sequence[Part], of: Callable[[Part], Floats], gamma: bool) ->
         return out
     if gamma:
         out[DISORDER] = disorder(a, b)
-    return out | _of_segments(a, b, (0.0, clock))
+    span = (0.0, clock)
+    return out | of_frames(a, b, span) | of_segments(a, b, span, RATE_HZ)
 
 
 def _of_boundaries(a: Floats, b: Floats) -> dict[Key, float]:
     out: dict[Key, float] = {}
     for tolerance in TOLERANCES_S:
-        hits = boundary_hits(a, b, tolerance)
-        of = f"any edge, {tolerance:g} s"
-        out["boundary hit rate", of, ""] = hits.hit_rate
-        out["boundary precision", of, ""] = hits.precision
-        out["boundary F1", of, ""] = hits.f1
+        out |= of_hits(boundary_hits(a, b, tolerance), f"any edge, {tolerance:g} s")
     away = np.abs(offsets_s(a, b))
     out["median offset, absolute", "any edge", "s"] = float(np.median(away))
     out["boundaries, share of the tags'", "any edge", ""] = len(a) / len(b)
-    return out
-
-
-def _of_segments(a: Floats, b: Floats, span: tuple[float, float]) -> dict[Key, float]:
-    out: dict[Key, float] = {}
-    shared = overlap(a, b, span)
-    out["frame F1", "sign", ""] = shared.f1_sign
-    out["frame F1", "transition", ""] = shared.f1_transition
-    out["IoU", "sign", ""] = shared.iou_sign
-    out["IoU", "transition", ""] = shared.iou_transition
-    out["Cohen's kappa", "sign", ""] = shared.kappa
-    out["covering", "all", ""] = covering(a, b, span)
-    out["segments, share of the reference's", "sign", ""] = share_of_segments(a, b)
-    p, r = (frame_labels(side, span, RATE_HZ) for side in (a, b))
-    out["mF1B", f"1-4 frames of {1 / RATE_HZ:g} s", ""] = mean_f1(boundary_f1(p, r))
-    out["mF1S", "IoU 0.40-0.75", ""] = mean_f1(segment_f1(p, r))
     return out

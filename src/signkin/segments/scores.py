@@ -118,29 +118,49 @@ def _scores(
         by_edge = [boundary_hits(a[:, k], b[:, k], tolerance) for k in (0, 1)]
         for edge, hits in (("start", by_edge[0]), ("end", by_edge[1]),
                            ("all", by_edge[0] + by_edge[1])):  # fmt: skip
-            of = f"{edge}, {tolerance:g} s"
-            out["boundary hit rate", of, ""] = hits.hit_rate
-            out["boundary precision", of, ""] = hits.precision
-            out["boundary F1", of, ""] = hits.f1
+            out |= of_hits(hits, f"{edge}, {tolerance:g} s")
     for k, edge in enumerate(("start", "end")):
         offset = offsets_s(a[:, k], b[:, k])
         out["median offset", edge, "s"] = _median(offset)
         out["median offset, absolute", edge, "s"] = _median(np.abs(offset))
         out["Hausdorff distance", edge, "s"] = hausdorff_s(a[:, k], b[:, k])
-    shared = overlap(a, b, span)
-    out["frame F1", "sign", ""] = shared.f1_sign
-    out["frame F1", "transition", ""] = shared.f1_transition
-    out["IoU", "sign", ""] = shared.iou_sign
-    out["IoU", "transition", ""] = shared.iou_transition
-    out["Cohen's kappa", "sign", ""] = shared.kappa
+    out |= of_frames(a, b, span)
     out[DISORDER] = disorder(a, b)
-    out["covering", "all", ""] = covering(a, b, span)
-    out["segments, share of the reference's", "sign", ""] = share_of_segments(a, b)
+    return out | of_segments(a, b, span, rate_hz)
+
+
+def of_hits(hits: Hits, of: str) -> dict[Key, float]:
+    """Return what boundary hits tell; of: of which boundaries, and how near."""
+    return {
+        ("boundary hit rate", of, ""): hits.hit_rate,
+        ("boundary precision", of, ""): hits.precision,
+        ("boundary F1", of, ""): hits.f1,
+    }
+
+
+def of_frames(a: Floats, b: Floats, span: tuple[float, float]) -> dict[Key, float]:
+    """Return how far segments (N, 2) and a reference (M, 2) are of one mind at each instant."""
+    shared = overlap(a, b, span)
+    return {
+        ("frame F1", "sign", ""): shared.f1_sign,
+        ("frame F1", "transition", ""): shared.f1_transition,
+        ("IoU", "sign", ""): shared.iou_sign,
+        ("IoU", "transition", ""): shared.iou_transition,
+        ("Cohen's kappa", "sign", ""): shared.kappa,
+    }
+
+
+def of_segments(
+    a: Floats, b: Floats, span: tuple[float, float], rate_hz: float
+) -> dict[Key, float]:
+    """Return how whole segments (N, 2) match those of a reference (M, 2)."""
     p, r = (frame_labels(side, span, rate_hz) for side in (a, b))
-    out["mF1B", f"1-4 frames of {1 / rate_hz:g} s", ""] = mean_f1(boundary_f1(p, r))
-    segment_hits: dict[float, Hits] = segment_f1(p, r)
-    out["mF1S", "IoU 0.40-0.75", ""] = mean_f1(segment_hits)
-    return out
+    return {
+        ("covering", "all", ""): covering(a, b, span),
+        ("segments, share of the reference's", "sign", ""): share_of_segments(a, b),
+        ("mF1B", f"1-4 frames of {1 / rate_hz:g} s", ""): mean_f1(boundary_f1(p, r)),
+        ("mF1S", "IoU 0.40-0.75", ""): mean_f1(segment_f1(p, r)),
+    }
 
 
 def _median(values: Floats) -> float:
