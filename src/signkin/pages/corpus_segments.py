@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from signkin.pages.corpus_page import Owner
 
 S3 = ".3f"
+DIGITS = ".3g"  # p-values stand among the rows
 TOLD = ("boundary F1", "boundary precision", "boundary hit rate", "median offset, absolute",
         "frame F1", "IoU", "Cohen's kappa", "covering", "mF1B", "mF1S")  # fmt: skip
 CHANCE = {
@@ -95,8 +96,9 @@ def _durations(owner: Owner, title: str) -> Iterator[View]:
         frame=read_table(path, "posterior_durations"),
         columns={
             "hand": ("hand", ""), "measure": ("measure", ""), "unit": ("unit", ""),
-            "manual": ("manual tags", S3), "refined": ("refined", S3),
-            "posterior": ("posterior", S3), "low": ("2.5 %", S3), "high": ("97.5 %", S3),
+            "manual": ("manual tags", DIGITS), "refined": ("refined", DIGITS),
+            "posterior": ("posterior", DIGITS), "low": ("2.5 %", DIGITS),
+            "high": ("97.5 %", DIGITS),
             "n": ("n", "d"), "note": ("note", ""),
         },
         file=path,

@@ -111,7 +111,8 @@ def draw(points: pd.DataFrame, excerpt: Excerpt, unit: str) -> Figure:
         ax.set_title(panel, loc="left")
         if i % columns:
             ax.set_ylabel("")
-        named |= dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            named.setdefault(label.partition(" → ")[0], handle)  # titles tell what it is held to
     # One legend for all panels: in them it would lie on the lines.
     figure.legend(named.values(), named.keys(), loc="outside lower center", ncols=3)
     return figure
