@@ -55,6 +55,7 @@ def plot_settings(
         ax.axhline(paper, color="0.3", ls="--", lw=0.9, zorder=1)
     for edge in range(1, len(groups)):
         ax.axvline(edge - 0.5, color="0.88", lw=0.8, zorder=0)
+    ax.margins(y=0.16)  # rings at the highest and lowest values stay whole
     ax.set_xlim(-0.5, len(groups) - 0.5)
     ax.set_xticks(range(len(groups)), groups)
     return ax
