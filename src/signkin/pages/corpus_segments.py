@@ -116,7 +116,7 @@ def _scores(owner: Owner, title: str) -> Iterator[View]:
         "lengths and gaps in another order within each recording, mean and 95 %.",
         frame=frame[frame["measure"].isin(TOLD) | frame["measure"].isna()],
         columns={"hand": ("hand", ""), "method": ("method", ""), "measure": ("score of", ""),
-                 "of": ("", ""), **CHANCE},
+                 "of": ("of which", ""), **CHANCE},
         file=path,
         most=12,
     )  # fmt: skip
@@ -190,7 +190,7 @@ def _agreement(owner: Owner, title: str) -> Iterator[View]:
         "each recording.",
         frame=read_table(path, "annotator_agreement"),
         columns={"first": ("scored", ""), "second": ("against", ""), "measure": ("score of", ""),
-                 "of": ("", ""), **CHANCE},
+                 "of": ("of which", ""), **CHANCE},
         file=path,
         most=12,
     )  # fmt: skip
