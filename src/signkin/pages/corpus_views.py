@@ -36,29 +36,33 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
     )
     frame = rated(owner, frame)
     extra = owner.about.set_index("recording")
-    for column in sign_columns(owner.sources.corpora[owner.name]):
+    own = sign_columns(owner.sources.corpora[owner.name])
+    for column in own:
         frame[column] = frame["recording"].map(extra[column])
     columns: dict[str, tuple[str, str]] = {
-        "recording": ("recording", ""), "signer": ("signer", ""), "flags": ("odd", "d"),
-        **sign_columns(owner.sources.corpora[owner.name]),
-        "rate_hz": ("rate (Hz)", "g"), "duration_s": ("length (s)", ".2f"),
+        "recording": ("recording", ""), "signer": ("signer", ""), **own,
+        "rate_hz": ("Hz", "g"), "duration_s": ("length (s)", ".2f"),
         "gap_share": ("missing", ".1%"), "longest_gap_s": ("longest gap (s)", ".2f"),
     }  # fmt: skip
     if owner.tagged:
         columns |= {
-            "transitions": ("transitions", "d"), "mean_s": ("mean duration (s)", S3),
-            "low_s": ("low", S3), "high_s": ("high", S3), "near": ("tags at minima", ".0%"),
+            "transitions": ("transitions", "d"), "mean_s": ("mean (s)", S3),
+            "near": ("tags at minima", ".0%"),
         }  # fmt: skip
+    columns |= {"flags": ("odd", "d"), "odd": ("what looks odd", "")}
     if frame["page"].ne("").any():
         columns["page"] = ("open", "open")
-    columns |= {"rating": ("your rating", "rating"), "odd": ("what looks odd", "")}
+    columns["rating"] = ("your rating", "rating")
     yield TableView(
         label="",
         title="All recordings",
-        caption="Missing: share of all positions, before gaps are filled. Low, high: 95 % interval "
-        "of the mean duration in that recording. Tags at minima: of the hand that has more."
-        if owner.tagged
-        else "Missing: share of all positions, before gaps are filled.",
+        caption="Missing: share of all positions, before gaps are filled."
+        + (
+            " Mean: of the durations of its transitions (interval: Durations of transitions, by "
+            "recording). Tags at minima: of the hand that has more."
+            if owner.tagged
+            else ""
+        ),
         frame=frame,
         columns=columns,
         file=file,
