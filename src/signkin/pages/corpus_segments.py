@@ -109,7 +109,7 @@ def _scores(owner: Owner, title: str) -> Iterator[View]:
     frame = read_table(path, "segmentation_scores")
     boundary, segment = (_of_measure(frame, measure) for measure in SHOWN)
     near = ", ".join(of.split(", ")[-1] for of in boundary["of"].dropna().unique() if of)
-    rows = boundary.merge(segment, on=["hand", "method"], how="outer", sort=False,
+    rows = boundary.merge(segment, on=["hand", "method"], how="left",
                           suffixes=("", "_segment"))  # fmt: skip
     yield TableView(
         label="",

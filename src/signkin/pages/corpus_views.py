@@ -113,10 +113,13 @@ def _distances(owner: Owner) -> PlotView:
             row.mean_distance, row.duration_s, row.recording, row.signer,
             f"{row.previous_gloss} → {row.next_gloss}, {row.recording} at {row.start_s:.2f} s: "
             f"{row.duration_s:.2f} s",
+            address=owner.sources.excerpt(owner.name, row.recording, row.start_s),
         )
         for row in rows.itertuples()
     ]  # fmt: skip
     shown, told = thinned(points)
+    if any(point.address for point in shown):
+        told += " A point that is chosen leads to its transition; a double click goes there."
     several = rows["mean_distance"].nunique() > 1 and rows["duration_s"].nunique() > 1
     correlation = (
         np.corrcoef(rows["mean_distance"], rows["duration_s"])[0, 1] if several else np.nan
@@ -126,7 +129,7 @@ def _distances(owner: Owner) -> PlotView:
     return PlotView(
         label="",
         title="Duration and distance of each transition",
-        caption=f"{finding} Distance: how far apart the two postures are, mean of the normalised "
+        caption=f"{finding} It is Figure 7 of Naert et al. (2017). Distance: how far apart the two postures are, mean of the normalised "
         f"distances of position and orientation (where there are orientations).{told}",
         drawing=scatter(shown, "mean normalised distance", "duration (s)", finding),
         files=[owner.sources.tagged_file(owner.name, "transitions")],
@@ -298,12 +301,14 @@ def _durations(
     first: dict[str, tuple[str, str]], keys: tuple[str, ...] = (),
 ) -> TableView:  # fmt: skip
     told = rows["name"].map(lambda name: FROM.get(name, name))
+    several = set(rows["group"]) != {"recording"}
+    columns = {k: v for k, v in DURATION_COLUMNS.items() if several or k != "recordings"}
     return TableView(
         label="",
         title=title,
         caption=caption,
         frame=rows.assign(told=told),
-        columns={**first, **DURATION_COLUMNS},
+        columns={**first, **columns},
         file=file,
         most=20,
         keys=keys,

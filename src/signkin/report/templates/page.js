@@ -200,7 +200,19 @@ function mark() {
 
 for (const box of document.querySelectorAll(".scroll[data-most]")) tables.push(new Table(box));
 for (const point of document.querySelectorAll("svg.plot [data-recording]")) {
-  point.addEventListener("click", () => choose("recording", point.dataset.recording));
+  point.addEventListener("click", () => {
+    const { recording, open } = point.dataset;
+    const told = point.closest(".exhibit").querySelector(".marked");
+    if (!open || !told) return choose("recording", recording);
+    // Another point of the same recording is another place to open, and takes no mark away.
+    if (chosen.key !== "recording" || chosen.value !== recording) choose("recording", recording);
+    else mark();
+    told.append(" ");
+    link(told, open, "Open " + point.querySelector("title").textContent);
+  });
+  point.addEventListener("dblclick", () => {
+    if (point.dataset.open) location.href = point.dataset.open;
+  });
 }
 // What is folded: opened where an address leads, all at once, and on paper.
 const folds = [...document.querySelectorAll("main details.fold")];
