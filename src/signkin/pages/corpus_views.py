@@ -215,9 +215,9 @@ def todo_view(owner: Owner, file: Path, elan: dict[str, Path]) -> TableView:
     )
     frame = rated(owner, frame)
     columns: dict[str, tuple[str, str]] = {
-        "urgency": ("how urgent", ""), "what": ("what", ""), "recording": ("recording", ""),
-        "signer": ("signer", ""), "gloss": ("sign", ""), "start_s": ("from (s)", ".2f"),
-        "end_s": ("to (s)", ".2f"), "why": ("why", ""),
+        "urgency": ("how urgent", ""), "why": ("why", ""), "what": ("what", ""),
+        "recording": ("recording", ""), "signer": ("signer", ""), "gloss": ("sign", ""),
+        "start_s": ("from (s)", ".2f"), "end_s": ("to (s)", ".2f"),
     }  # fmt: skip
     if frame["page"].ne("").any():
         columns["page"] = ("excerpt", "open")

@@ -245,6 +245,7 @@ let closed = [];
 addEventListener("beforeprint", () => {
   closed = [...document.querySelectorAll("main details:not([open])")];
   for (const folded of closed) folded.open = true;
+  for (const image of document.images) image.loading = "eager";
 });
 addEventListener("afterprint", () => { for (const folded of closed) folded.open = false; });
 document.addEventListener("keydown", event => { if (event.key === "Escape") choose("", ""); });
