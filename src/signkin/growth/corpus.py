@@ -17,7 +17,7 @@ import pandas as pd
 import yaml
 
 from signkin import seeds
-from signkin.corpus import load_corpus
+from signkin.corpus import Entry, load_corpus
 from signkin.errors import SignkinError
 from signkin.io.wide_csv import write_wide_csv
 from signkin.simulate import isl, lsf
@@ -64,7 +64,8 @@ def write_corpus(
 def _tagged(
     data: Path, model: Path, recordings: int, seed: int, home: Path
 ) -> Iterator[dict[str, Any]]:
-    lexicon = load_corpus(model).lexicon
+    described = load_corpus(model)
+    lexicon = described.lexicon
     text: dict[str, Any] = {"dtype": str, "keep_default_na": False}
     table2 = pd.read_csv(home / "papers/naert2017/table2.csv", **text)
     constants = pd.read_csv(home / "papers/naert2017/constants.csv", **text)
@@ -93,12 +94,19 @@ def _tagged(
                 break  # a design of fewer utterances
             lsf.write_motion(recording, data / f"{recording.name}.bvh")
             lsf.write_tags(recording, data / f"{recording.name}.eaf")
-            yield {
+            row = {
                 "recording": recording.name,
                 "signer": f"simulated-{design % SIGNERS + 1}",
                 "motion": f"{recording.name}.bvh",
                 "annotation": f"{recording.name}.eaf",
             }
+            entry = Entry(**row, part="", line=0)
+            rng = seeds.stream(seed, "tagged", "second tagger", recording.name)
+            for annotator in described.annotators:
+                lsf.write_second_tags(
+                    recording, data / described.annotator_file(entry, annotator), rng
+                )
+            yield row
             first += 1
         design += 1
 
