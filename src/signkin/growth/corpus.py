@@ -100,7 +100,9 @@ def _tagged(
                 "motion": f"{recording.name}.bvh",
                 "annotation": f"{recording.name}.eaf",
             }
-            entry = Entry(**row, part="", line=0)
+            entry = Entry(
+                row["recording"], row["signer"], row["motion"], row["annotation"], part="", line=0
+            )
             rng = seeds.stream(seed, "tagged", "second tagger", recording.name)
             for annotator in described.annotators:
                 lsf.write_second_tags(

@@ -39,9 +39,8 @@ def agreement(
     left out and told.
     """
     rates = dict(zip(about["recording"].astype(str), about["rate_hz"], strict=True))
-    found: dict[str, Signs] = {
-        FIRST: {name: intervals_of(intervals, name, "sign") for name in rates}
-    }
+    tags, lows = tables.ByRecording(intervals), tables.ByRecording(minima)
+    found: dict[str, Signs] = {FIRST: {name: intervals_of(tags, name, "sign") for name in rates}}
     notes: list[str] = []
     for annotator in corpus.annotators:
         found[annotator], untold = signs_of(corpus, annotator, folder, rates)
@@ -49,8 +48,9 @@ def agreement(
     depth = f"prominence_{corpus.unit}_per_s"
     times = {}
     for name in rates:
+        own = lows[name]
         for hand in HANDS:
-            rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
+            rows = own[own["hand"] == hand]
             times[name, hand] = (rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
     made: dict[str, list[pd.DataFrame]] = {name: [] for name in NAMES}
     for one, other in combinations(found, 2):

@@ -135,7 +135,7 @@ class Take:
         cls,
         corpus: Corpus,
         recording: Recording,
-        intervals: pd.DataFrame,
+        intervals: pd.DataFrame | tables.ByRecording,
         types: list[str],
         settings: GridSettings,
     ) -> Take:
@@ -164,13 +164,13 @@ def takes_of(
     settings: GridSettings,
 ) -> Iterator[Take]:
     """Yield the tagged recordings of a corpus; arguments as those of `claim_choices`."""
-    manual = between_manual(transitions)
+    manual, tags = tables.ByRecording(between_manual(transitions)), tables.ByRecording(intervals)
     signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
     used = signed - set(excluded["recording"])
     for recording in recordings:
         if recording.name in used:
-            types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
-            yield Take.of(corpus, recording, intervals, types, settings)
+            types = manual[recording.name]["type"].tolist()
+            yield Take.of(corpus, recording, tags, types, settings)
 
 
 def claim_choices(

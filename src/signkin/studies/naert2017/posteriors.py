@@ -17,6 +17,7 @@ from signkin.coarticulation.segmentation import EDGES
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.studies.naert2017.tagged import intervals_of, together, with_lead
+from signkin.tables import ByRecording, rows_of
 
 NOT_LEARNT = "too few tags or no minima to learn from: bias and jitter are assumed"
 
@@ -37,12 +38,14 @@ def boundary_posteriors(
     start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
     depth = f"prominence_{corpus.unit}_per_s"
     parts = []
-    signs = {name: intervals_of(intervals, name, "sign") for name in names}
+    tags_by, lows, types = map(ByRecording, (intervals, minima, sign_types))
+    signs = {name: intervals_of(tags_by, name, "sign") for name in names}
     for hand in HANDS:
-        acts = {name: acting(corpus, sign_types, name, hand, len(signs[name])) for name in signs}
+        acts = {name: acting(corpus, types, name, hand, len(signs[name])) for name in signs}
         sets = {}
         for name, tags in signs.items():
-            rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
+            rows = lows[name]
+            rows = rows[rows["hand"] == hand]
             times = np.array([(s.start_s, s.end_s) for s in tags]).reshape(-1, 2)
             sets[name] = (times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
         model = learn_tag_model(list(sets.values()), start, acts=list(acts.values()))
@@ -55,7 +58,7 @@ def boundary_posteriors(
 
 
 def acting(
-    corpus: Corpus, sign_types: pd.DataFrame, recording: str, hand: str, signs: int
+    corpus: Corpus, sign_types: pd.DataFrame | ByRecording, recording: str, hand: str, signs: int
 ) -> np.ndarray:
     """Return whether the hand acts in each sign of a recording, (N,), by the signs' types.
 
@@ -65,7 +68,7 @@ def acting(
     acts = np.ones(signs, dtype=bool)
     if hand == corpus.dominant_hand(corpus.by_name[recording]):
         return acts
-    rows = sign_types[sign_types["recording"] == recording]
+    rows = rows_of(sign_types, recording)
     one_handed = rows[rows["type"].str.match("[02]")]
     acts[one_handed["sign"].to_numpy(dtype=int) - 1] = False
     return acts

@@ -17,6 +17,7 @@ from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.settings.sections import Refinement
 from signkin.studies.naert2017.tagged import intervals_of, together, with_lead
+from signkin.tables import ByRecording
 
 
 def boundaries(
@@ -28,9 +29,10 @@ def boundaries(
 ) -> pd.DataFrame:
     """Return the table `boundaries` of some recordings."""
     parts = []
+    tags, lows = ByRecording(intervals), ByRecording(minima)
     for name in names:
-        signs = intervals_of(intervals, name, "sign")
-        of_recording = minima[minima["recording"] == name]
+        signs = intervals_of(tags, name, "sign")
+        of_recording = lows[name]
         times = {
             hand: of_recording.loc[of_recording["hand"] == hand, "minimum_s"].to_numpy(dtype=float)
             for hand in HANDS
@@ -55,13 +57,15 @@ def refinement(
     """
     chance = {}
     rates = about.set_index("recording")["rate_hz"]
+    tags, lows = ByRecording(intervals), ByRecording(minima)
     for name in dict.fromkeys(bounds["recording"]):
-        signs = intervals_of(intervals, name, "sign")
+        signs = intervals_of(tags, name, "sign")
+        of_recording = lows[name]
         for hand in HANDS:
-            chosen = (minima["recording"] == name) & (minima["hand"] == hand)
+            chosen = of_recording["hand"] == hand
             chance[(name, hand)] = chance_distances(
                 signs,
-                minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                of_recording.loc[chosen, "minimum_s"].to_numpy(dtype=float),
                 float(rates[name]),
                 settings.draws,
                 seeds.stream(seed, corpus.name, name, hand, "chance"),

@@ -14,6 +14,7 @@ from signkin.settings.sections import Refinement
 from signkin.statistics import nulls
 from signkin.statistics.multiplicity import holm_of
 from signkin.studies.naert2017.tagged import hands_tagged, signs_of_hand
+from signkin.tables import ByRecording
 
 ALL, TRANSITION = "all", "transition"
 
@@ -36,14 +37,15 @@ def tag_chance(
     windows = sorted({*nulls.WINDOWS_S, settings.search_window_s})
     signed = list(names)
     parts = []
+    by_recording, lows = ByRecording(intervals), ByRecording(minima)
     for hand in hands_tagged(corpus):
         found: list[nulls.Stretch] = []
         for name in signed:
-            signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, intervals, name, hand)]
-            chosen = (minima["recording"] == name) & (minima["hand"] == hand)
+            signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, by_recording, name, hand)]
+            own = lows[name]
             found += nulls.stretches(
                 np.array(signs).reshape(-1, 2),
-                minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                own.loc[own["hand"] == hand, "minimum_s"].to_numpy(dtype=float),
                 float(rates[name]),
                 margin_s=windows[-1],
             )

@@ -155,13 +155,14 @@ def database(
     """Gather the tagged signs of a corpus; short gaps filled, all takes at one place."""
     takes: dict[str, Recording] = {}
     tokens: list[Token] = []
+    tags = tables.ByRecording(intervals)
     for recording in recordings:
         filled = filled_recording(recording, settings.kinematics.longest_gap_s)
         if settings.synthesis.align_takes and takes:
             filled = placed(filled, Place.of(next(iter(takes.values()))))
         takes[filled.name] = filled
-        signs = intervals_of(intervals, filled.name, "sign")
-        names = utterances_of(corpus, intervals, filled.name, signs) if signs else []
+        signs = intervals_of(tags, filled.name, "sign")
+        names = utterances_of(corpus, tags, filled.name, signs) if signs else []
         tokens += [
             Token(Sign(recording=filled, gloss=s.label, start_s=s.start_s, end_s=s.end_s), n, name)
             for n, (s, name) in enumerate(zip(signs, names, strict=True), start=1)
