@@ -181,11 +181,12 @@ def claim_choices(
     excluded: pd.DataFrame,
     settings: GridSettings,
     seed: int,
+    note: str = "",
 ) -> pd.DataFrame:
     """Return the table `claim_choices` of a corpus.
 
     transitions: the pipeline's table, which has the types and the manual transitions.
-    excluded: the table of recordings that are left out.
+    excluded: the table of recordings that are left out. note: what every row tells.
     """
     grid = settings.choices
     gathered: dict[Setting, Gathered] = defaultdict(Gathered)
@@ -204,6 +205,8 @@ def claim_choices(
     frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["claim_choices"].names())
     for column in ("segmentation", "hand", "outliers", "null", "note"):
         frame[column] = frame[column].fillna("")
+    if note:
+        frame["note"] = [f"{told}; {note}" if told else note for told in frame["note"]]
     return frame.sort_values("claim", kind="stable", ignore_index=True)
 
 

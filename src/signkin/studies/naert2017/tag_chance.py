@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import pandas as pd
 
@@ -13,6 +11,7 @@ from signkin.errors import SignkinError
 from signkin.settings.sections import Refinement
 from signkin.statistics import nulls
 from signkin.statistics.multiplicity import holm_of
+from signkin.studies.naert2017.sampling import Sample
 from signkin.studies.naert2017.tagged import hands_tagged, signs_of_hand
 from signkin.tables import ByRecording
 
@@ -24,23 +23,22 @@ def tag_chance(
     about: pd.DataFrame,
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
-    names: Iterable[str],
+    chosen: Sample,
     settings: Refinement,
     seed: int,
 ) -> pd.DataFrame:
     """Return the table `tag_chance`: manual tags of a corpus against each null, by hand.
 
     Each hand's tags against its own minima: a tier of one hand alone tells nothing of the other.
-    about: the table `recordings`. names: of the recordings with tags, in their order.
+    about: the table `recordings`. chosen: recordings with tags, in their order.
     """
     rates = about.set_index("recording")["rate_hz"]
     windows = sorted({*nulls.WINDOWS_S, settings.search_window_s})
-    signed = list(names)
     parts = []
     by_recording, lows = ByRecording(intervals), ByRecording(minima)
     for hand in hands_tagged(corpus):
         found: list[nulls.Stretch] = []
-        for name in signed:
+        for name in chosen.names:
             signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, by_recording, name, hand)]
             own = lows[name]
             found += nulls.stretches(
@@ -52,7 +50,7 @@ def tag_chance(
         for tags in (ALL, TRANSITION):
             rng = seeds.stream(seed, corpus.name, hand, tags, "tag_chance")
             parts.append(_rows(found, tags, windows, settings, rng).assign(hand=hand))
-    out = pd.concat(parts, ignore_index=True).assign(corpus=corpus.name)
+    out = chosen.told(pd.concat(parts, ignore_index=True)).assign(corpus=corpus.name)
     one = (out["measure"] == nulls.MEAN_SHARE) & out["p"].notna()
     out.loc[one, "p_holm"] = holm_of(out.loc[one, "p"].to_numpy(dtype=float))
     return out.reindex(columns=tables.TABLES["tag_chance"].names())

@@ -20,9 +20,10 @@ from signkin.coarticulation.sign_speeds import mean_speeds, step_speeds
 from signkin.coarticulation.synthesis import Sign
 from signkin.coarticulation.transitions import SAME_INSTANT_S
 from signkin.corpus import Corpus
-from signkin.io.store import read_recordings
+from signkin.io.store import read_recordings, recording_names
 from signkin.recording import Recording
 from signkin.settings.sections import Lowpass
+from signkin.studies.naert2017.sampling import Sample, sample
 from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.found import found_signs
 from signkin.studies.naert2017.synthesis.stock import Place, placed
@@ -217,13 +218,17 @@ def load_database(
     intervals: str | Path,
     excluded: str | Path,
     settings: SynthesisSettings,
-) -> tuple[Database, pd.DataFrame]:
-    """Read canonical recordings and tags, those left out aside; returns as `sign_database`."""
+    seed: int,
+    glosses: Iterable[str] = (),
+) -> tuple[Database, pd.DataFrame, Sample]:
+    """Read canonical recordings and tags, those left out aside; returns as `sign_database`.
+
+    Of a large corpus a sample is taken, which is returned as well, with a recording of each of
+    the glosses in it.
+    """
     without = set(tables.read_table(excluded, "excluded")["recording"])
-    takes = [take for file in files for take in read_recordings(Path(file))]
-    return sign_database(
-        corpus,
-        [take for take in takes if take.name not in without],
-        tables.read_table(intervals, "intervals"),
-        settings,
-    )
+    names = [name for file in files for name in recording_names(Path(file)) if name not in without]
+    tags = tables.read_table(intervals, "intervals")
+    chosen = sample(corpus.name, names, tags, settings.samples.transitions, seed, glosses)
+    takes = [take for file in files for take in read_recordings(Path(file), chosen.names)]
+    return *sign_database(corpus, takes, tags, settings), chosen
