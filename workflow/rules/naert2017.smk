@@ -84,7 +84,7 @@ rule tag_posteriors:
         intervals=rules.ingest.output.intervals,
         minima=rules.kinematics.output.minima,
     output:
-        posteriors="<results>/naert2017/{corpus}/shards/{shard}/boundary_posteriors.csv",
+        posteriors="<results>/naert2017/{corpus}/shards/{shard}/boundary_posteriors.parquet",
     log:
         "<logs>/naert2017/{corpus}/{shard}/tag_posteriors.log",
     params:

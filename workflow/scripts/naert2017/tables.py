@@ -17,13 +17,15 @@ with job(snakemake, analysis=True):
     from signkin.studies.naert2017.sampling import sample
     from signkin.studies.naert2017.table2 import table2
     from signkin.studies.naert2017.tag_chance import tag_chance
+    from signkin.studies.naert2017.tagged import together
     from signkin.studies.naert2017.transitions import left_out
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
     unit = corpus.unit
     boundaries = tables.concatenated(source.boundaries, "boundaries", unit)
-    posteriors = tables.concatenated(source.posteriors, "boundary_posteriors", unit)
+    parts = [part for part in map(pd.read_parquet, source.posteriors) if len(part)]
+    posteriors = together(parts, "boundary_posteriors", unit)
     sign_types = tables.concatenated(source.sign_types, "sign_types", unit)
     raw = tables.concatenated(source.transitions, "raw_transitions", unit)
     intervals = tables.read_table(source.intervals, "intervals")

@@ -19,7 +19,7 @@ with job(snakemake, analysis=True):
         source.excluded,
         params.settings,
         params.seed,
-        [gloss for utterance in wanted for gloss in utterance.glosses],
+        [gloss for glosses in wanted.values() for gloss in glosses],
     )
     parts = utterance_files(
         corpus,

@@ -52,6 +52,12 @@ class Sample:
         return table.assign(note=joined.where(rows, table["note"]))
 
 
+def signs_of(about: pd.DataFrame) -> pd.DataFrame:
+    """Return a row a sign, as `sample` counts them, of the table `recordings`."""
+    rows = about.loc[about.index.repeat(about["signs"].astype(int)), ["recording"]]
+    return rows.assign(role="sign", label="")
+
+
 def sample(
     corpus: str, names: Iterable[str], intervals: pd.DataFrame, most: int, seed: int,
     glosses: Iterable[str] = (),
