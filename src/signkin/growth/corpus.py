@@ -25,6 +25,7 @@ from signkin.simulate import isl, lsf
 AT_ONCE = 16  # a design has up to so many utterances, each a recording of its own
 SIGNERS = 8  # of tagged signing: one a design, in turn
 TRIES = 20  # a design may ask for a posture that no body has
+SHARD = 100  # recordings that share a job: at 0.4 s each, a job is far from a minute
 EUCLIDEAN_UNIT_M = 0.1  # of the printed surface
 
 
@@ -150,5 +151,6 @@ def _configure(folder: Path, kind: str, home: Path) -> None:
     if not path.exists():
         settings = yaml.safe_load((home / "config.yaml").read_text(encoding="utf-8"))
         settings["corpora"] = [kind]
+        settings["recordings_per_job"] = SHARD
         settings["synthesis"]["utterances"] = []
         path.write_text(yaml.safe_dump(settings, sort_keys=False), encoding="utf-8")
