@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from signkin.coarticulation.duration import FOLDS, MOST_LEFT_OUT, folded
-from signkin.statistics import association
+from signkin.statistics import association, posthoc
 from signkin.studies.naert2017.sampling import sample
 
 NAMES = [f"r{i:03d}" for i in range(100)]
@@ -75,3 +75,15 @@ def test_draws_of_m_out_of_n_give_the_interval_of_all(monkeypatch):
     assert interval() == pytest.approx(whole, abs=0.006)
     half = (whole[1] - whole[0]) / 2
     assert half == pytest.approx(1.96 / np.sqrt(4000), rel=0.1)
+
+
+def test_of_too_many_groups_the_largest_are_compared(monkeypatch):
+    monkeypatch.setattr(posthoc, "MOST_GROUPS", 3)
+    rng = np.random.default_rng(5)
+    groups = {f"g{i}": rng.normal(size=2 + i) for i in range(5)}
+    found = posthoc.pairwise(groups, "x", 0.05)
+    assert {f.groups for f in found} == {("g2", "g3"), ("g2", "g4"), ("g3", "g4")}
+    assert all("the 3 largest of 5 groups" in "; ".join(f.notes) for f in found)
+    kept, told = posthoc.largest(groups, 5)
+    assert kept is groups
+    assert told == ""
