@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,21 @@ class Data:
     truth_s: Floats
     noise_share: float = 1.0
 
+    @cached_property
+    def centred(self) -> Floats:
+        """The positions around their mean, (T, L): the same under each of many priors."""
+        return self.x - self.x.mean(axis=0)
+
+    @cached_property
+    def gaps(self) -> int:
+        """How many bins have no position."""
+        return int((~np.isfinite(self.x)).any(axis=1).sum())
+
+    @cached_property
+    def moves(self) -> bool:
+        """Whether bins differ."""
+        return bool((self.centred.std(axis=0) > 0).any())
+
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
@@ -160,11 +176,10 @@ class Study:
 
     def _ready(self, item: Data) -> tuple[Floats, Prior]:
         where = f"recording {item.source.recording}"
-        gaps = int((~np.isfinite(item.x)).any(axis=1).sum())
-        if gaps:
-            raise SignkinError(f"{gaps} bins without a position", file=where, expected="none")
-        x = item.x - item.x.mean(axis=0)
-        if not (x.std(axis=0) > 0).any():
+        if item.gaps:
+            raise SignkinError(f"{item.gaps} bins without a position", file=where, expected="none")
+        x = item.centred
+        if not item.moves:
             raise SignkinError("all bins are equal", file=where, expected="a movement")
         if len(x) <= max(self.orders):
             raise SignkinError(
@@ -203,7 +218,7 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
     start = lead(corpus, source.recording)
     entry = corpus.by_name[source.recording]
     known = data.dataset != RECORDED
-    x = data.x - data.x.mean(axis=0)
+    x = data.centred
     prior = prior_id(settings.prior, data.noise_share)
     for i, order in enumerate(posterior.orders):
         misfit = posterior.noise_misfit(order)
