@@ -126,7 +126,6 @@ rule order_choices:
         caption="<results>/endres2013/{corpus}/order_choices.txt",
     log:
         "<logs>/endres2013/{corpus}/order_choices.log",
-    threads: 2
     params:
         code=PLAN.digest("endres2013/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
@@ -149,7 +148,6 @@ rule printed_readings:
         readings_ground_truth="<results>/endres2013/{corpus}/readings_ground_truth.csv",
     log:
         "<logs>/endres2013/{corpus}/readings.log",
-    threads: 2
     params:
         code=PLAN.digest("endres2013/readings.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),

@@ -25,6 +25,7 @@ WINDOW_S = 0.09  # section 3.1: "an accuracy window of 90 ms", read as a half-wi
 TOLERANCE_S = 1e-6
 INTERVAL = (2.5, 97.5)  # percentiles of all intervals here
 NO_TRUTH = "no true boundary"
+Weights = Callable[[int, int], NDArray[np.int64]]  # of (trajectories, draws)
 
 
 # --- one trajectory --------------------------------------------------------------------------
@@ -158,15 +159,14 @@ class Hpfpps:
 
 
 def hpfpps(
-    rates: Sequence[HitRate], rng: np.random.Generator | int, draws: int = 2000,
-    weights: Callable[[np.random.Generator, int, int], NDArray[np.int64]] | None = None,
+    rates: Sequence[HitRate], rng: np.random.Generator | int | Weights, draws: int = 2000
 ) -> Hpfpps:  # fmt: skip
     """Return eq. 17 of a group: pooled hit rate over pooled false positives a second.
 
     The mean of the trajectories' own ratios does not exist once one has no false positive.
     Standard error and interval are from a bootstrap over trajectories.
     Trajectories without a true boundary have no hit rate; they are left out and counted.
-    weights: in the place of `bootstrap_weights`, for who keeps what it drew.
+    rng: a random generator, a seed, or what gives the weights of n trajectories (n, draws).
     """
     if draws < 2:
         raise _error(f"{draws} bootstrap draws", "at least 2")
@@ -176,8 +176,9 @@ def hpfpps(
         nan = float("nan")
         return Hpfpps(nan, nan, nan, nan, draws, 0, len(rates), without, NO_TRUTH)
     value = float(_pooled(counts.sum(axis=0)))
-    weigh = bootstrap_weights if weights is None else weights
-    drawn = _pooled(weigh(np.random.default_rng(rng), len(counts), draws) @ counts)
+    n = len(counts)
+    weights = rng(n, draws) if callable(rng) else bootstrap_weights(rng, n, draws)
+    drawn = _pooled(weights @ counts)
     finite = drawn[np.isfinite(drawn)]
     there = np.sort(drawn[~np.isnan(drawn)])
     # A percentile between a number and infinity is no number: take one of the draws.
@@ -204,9 +205,9 @@ def hpfpps(
     )
 
 
-def bootstrap_weights(rng: np.random.Generator, n: int, draws: int) -> NDArray[np.int64]:
+def bootstrap_weights(rng: np.random.Generator | int, n: int, draws: int) -> NDArray[np.int64]:
     """Draw how often each of n trajectories stands in each bootstrap sample, (draws, n)."""
-    return rng.multinomial(n, np.full(n, 1 / n), size=draws)
+    return np.random.default_rng(rng).multinomial(n, np.full(n, 1 / n), size=draws)
 
 
 def pooled_hpfpps(rates: Sequence[HitRate]) -> float:
