@@ -151,13 +151,8 @@ def _outcomes(
 
 def _mean_probability(fits: Sequence[Fitted]) -> pd.Series:
     """Return the mean probability of each order."""
-    rows = [
-        (order, float(p))
-        for one in fits
-        for order, p in zip(one.posterior.orders, one.posterior.order_probability, strict=True)
-    ]
-    frame = pd.DataFrame(rows, columns=["order", "order_probability"])
-    return frame.groupby("order")["order_probability"].mean()
+    probability = np.mean([one.posterior.order_probability for one in fits], axis=0)
+    return pd.Series(probability, index=list(fits[0].posterior.orders)).sort_index()
 
 
 def _rate(one: Fitted, order: int, settings: FitSettings) -> HitRate:

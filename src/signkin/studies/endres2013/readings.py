@@ -38,6 +38,7 @@ from signkin.studies.endres2013.single_signs import (
     KnownTruths,
     SingleSigns,
     Trajectory,
+    ground_truth,
     movement_of,
     recorded,
     single_signs,
@@ -139,7 +140,7 @@ def _data(trajectories: Iterable[Trajectory]) -> list[Data]:
 
 def equal_bins(
     corpus: Corpus, recordings: Iterable[Recording], settings: ReadingSettings,
-    change: Mapping[str, object], seed: int, truths: KnownTruths,
+    change: Mapping[str, object], seed: int, truths: KnownTruths | None = None,
 ) -> list[Trajectory]:  # fmt: skip
     """Return recorded movements and their ground truth in as many bins each, pair by pair.
 
@@ -149,6 +150,7 @@ def equal_bins(
     samples: orders of the two are to be compared at equal T.
     """
     out = []
+    truth_of = ground_truth if truths is None else truths.of
     law = settings.cut.powerlaw.model_copy(update=dict(change))
     for recording in recordings:
         try:
@@ -156,7 +158,7 @@ def equal_bins(
             as_recorded = recorded(movement, settings.cut.bins)
         except SignkinError:  # listed where trajectories are made: left_out.csv
             continue
-        truth = truths.of(corpus.name, movement.wrist, law, seed)
+        truth = truth_of(corpus.name, movement.wrist, law, seed)
         if not isinstance(truth, LeftOut):
             out += [as_recorded, warped(movement.wrist, truth, len(as_recorded.x))]
     return out
