@@ -27,6 +27,7 @@ KERNELS = (
     "lanes_llvm",
     "lanes_numpy",
     "log_domain",
+    "prices",
     "segmentation",
     "segments",
     "sum_product",
@@ -59,5 +60,6 @@ def compile_kernels() -> None:
         x = rng.normal(size=(bins, 2))
         for far in (0.0, 1e9):  # with 16 digits, and with 32
             fit(x + far, (0, 1), prior, max_segment_bins=longest).map_trajectory(1)
+    fit(rng.normal(size=(EVERY_COUNT_UP_TO + 1, 2)), (0,), prior, max_segment_bins=9, whole_up_to=1)
     match([0.1], [0.1])
     chance_line([[0.5]], [1.0], 0, [1.0], draws=1)

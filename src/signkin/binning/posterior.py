@@ -238,12 +238,13 @@ def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:
     left = np.ldexp(np.round(np.ldexp(given, DIGITS_2 - exponent)), exponent - DIGITS_2)
     padded = np.concatenate([[-np.inf], left, [-np.inf]])
     peak = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:]) & (left > 0)
-    free = np.where(peak, left, -np.inf)
+    places = np.flatnonzero(peak)
+    free = np.ones(len(left), dtype=bool)
     found: list[int] = []
-    while len(found) < count:
-        best = int(np.argmax(free)) if len(free) else 0
-        if not len(free) or not np.isfinite(free[best]):
+    for place in places[np.argsort(-left[places], kind="stable")]:
+        if len(found) == count:
             break
-        found.append(best)
-        free[max(0, best - CLEARANCE_BINS) : best + CLEARANCE_BINS + 1] = -np.inf
+        if free[place]:
+            found.append(int(place))
+            free[max(0, place - CLEARANCE_BINS) : place + CLEARANCE_BINS + 1] = False
     return np.array(sorted(found), dtype=np.int64)
