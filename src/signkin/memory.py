@@ -7,7 +7,7 @@ cluster's job), or gets no more (`ulimit -v`), in the middle of a run.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,11 +23,15 @@ UNLIMITED_MB = 1e9
 
 @dataclass(frozen=True)
 class Limit:
-    """A limit on memory (MB), and what sets it. each: of every process by itself, not of all."""
+    """A limit on memory (MB), and what sets it.
+
+    each: of every job by itself, not of all. addresses: of addresses, not of memory held.
+    """
 
     mb: float
     by: str
     each: bool = False
+    addresses: bool = False
 
 
 def limits(words: Iterable[str] = (), root: Path = Path("/")) -> Iterator[Limit]:
@@ -46,10 +50,19 @@ def limits(words: Iterable[str] = (), root: Path = Path("/")) -> Iterator[Limit]
 
     most = resource.getrlimit(resource.RLIMIT_AS)[0]
     if most != resource.RLIM_INFINITY:
-        yield Limit(most / 1e6, "ulimit -v (RLIMIT_AS)", each=True)
+        yield Limit(most / 1e6, "ulimit -v (RLIMIT_AS)", each=True, addresses=True)
     groups = [_number(file) for file in _group_files(root)]
     if groups and (least := min(groups)) < UNLIMITED_MB:
         yield Limit(least, "the control group (cgroup)")
+
+
+def limits_of_jobs(profiles: Iterable[Mapping[str, object]]) -> Iterator[Limit]:
+    """Yield the limits that profiles set on jobs that run on a cluster."""
+    for profile in profiles:
+        resources = profile.get("default-resources")
+        asked = resources.get("mem_mb") if isinstance(resources, dict) else None
+        if isinstance(asked, int | float):
+            yield Limit(float(asked), "default-resources mem_mb of the profile", each=True)
 
 
 def _group_files(root: Path) -> Iterator[Path]:
@@ -91,8 +104,8 @@ def check_memory(logs: Path, found: Iterable[Limit], cores: int) -> str:
     need = need_mb(logs)
     told = ""
     for limit in found:
-        wanted = need + (ADDRESSES_MB if limit.each else 0)
-        least = LEAST_MB + (ADDRESSES_MB if limit.each else 0)
+        more = ADDRESSES_MB if limit.addresses else 0.0
+        wanted, least = need + more, LEAST_MB + more
         if limit.mb < least:
             raise SignkinError(
                 f"memory is limited to {limit.mb:.0f} MB by {limit.by}, and a job takes "

@@ -9,7 +9,7 @@ import pytest
 
 from signkin import SignkinError
 from signkin.job import job
-from signkin.memory import ADDRESSES_MB, LEAST_MB, Limit, check_memory, limits
+from signkin.memory import ADDRESSES_MB, LEAST_MB, Limit, check_memory, limits, limits_of_jobs
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="limits are read on Linux")
 
@@ -48,6 +48,8 @@ def test_a_run_under_a_limit_below_need_is_refused_before_its_first_job(tmp_path
 def test_what_jobs_of_the_last_run_held_is_asked_for(tmp_path):
     (tmp_path / "a.cost.json").write_text(json.dumps({"rule": "r", "peak_mb": 900.0}))
     assert check_memory(tmp_path, [Limit(2000, "x"), Limit(1500, "y", each=True)], 2) == ""
+    told = check_memory(tmp_path, limits_of_jobs([{"default-resources": {"mem_mb": 800}}]), 50)
+    assert told.startswith("A job may take 900 MB") and "800 MB by default-resources" in told
     told = check_memory(tmp_path, limits(["--resources", "mem_mb=1700"], tmp_path), 2)
     assert told == (
         "2 jobs at a time may take 1800 MB (the most a job of the last run held is 900 MB), and "

@@ -143,7 +143,7 @@ class Plan:
     def _there(self, corpus: str, names: list[str]) -> list[str]:
         """Return the paths of data files; a corpus that skips recordings may lack some."""
         if self.remote and (address := self.addresses.get(corpus)):
-            return [self.remote.file(address, name) for name in names]
+            return [self.remote.recorded(address, name) for name in names]
         paths = [self.folders[corpus] / name for name in names]
         skips = self.corpora[corpus].skips
         return [str(path) for path in paths if not skips or path.exists()]

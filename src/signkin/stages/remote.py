@@ -7,7 +7,8 @@ Snakemake fetches the files that a job wants before it starts, below a folder of
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -30,6 +31,20 @@ class Remote:
 
     storage: Callable[[str], Any]
     exists: Callable[[Any], bool]
+    _known: dict[str, dict[str, Callable[[], Any]]] = field(default_factory=dict)
+
+    def recorded(self, *parts: str) -> Any:
+        """Return the input that an address of a recording's file stands for.
+
+        Whether it is there, its time and its size are asked for once a run: Snakemake asks for
+        them anew after each job.
+        """
+        found = self.file(*parts)
+        thing = found.flags["storage_object"]
+        known = self._known.setdefault(thing.query, {})
+        for name in ("exists", "mtime", "size"):
+            setattr(thing, name, known.setdefault(name, cache(getattr(thing, name))))
+        return found
 
     def file(self, *parts: str) -> Any:
         """Return the input that an address stands for.
@@ -54,7 +69,7 @@ class Remote:
         for name in names:
             _refuse_climbing(corpus, name)
         address = self.address(corpus, data_dir)
-        if not names or not self.exists(self.file(address, names[0])):
+        if not names or not self.exists(self.recorded(address, names[0])):
             return None
         return Path(self.file(address, "any").flags["storage_object"].local_path()).parent
 
