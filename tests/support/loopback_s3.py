@@ -63,8 +63,11 @@ class Server:
 
 
 @contextmanager
-def loopback(refusals: int = 0) -> Iterator[Server]:
-    """Start a server; each request (method, path) is answered 503 so many times at first."""
+def loopback(refusals: int = 0, most: int = 40) -> Iterator[Server]:
+    """Start a server that answers each of the first requests (method, path) 503 so many times.
+
+    most: how many. boto3 gives up after about a hundred retries that few successes lie between.
+    """
     from moto.server import DomainDispatcherApplication, create_backend_app
     from werkzeug.serving import make_server
 
@@ -74,8 +77,10 @@ def loopback(refusals: int = 0) -> Iterator[Server]:
     def application(environ: dict[str, Any], start_response: Any) -> Any:
         request = environ["REQUEST_METHOD"], environ["PATH_INFO"]
         with guard:
-            refuse = server.refused[request] < refusals
-            server.refused[request] += refuse
+            known = request in server.refused or len(server.refused) < most
+            refuse = known and server.refused[request] < refusals
+            if refuse:
+                server.refused[request] += 1
         if refuse:
             environ["wsgi.input"].read(int(environ.get("CONTENT_LENGTH") or 0))
             start_response("503 Slow Down", [("Content-Type", "application/xml")])

@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(bool(why_not()), reason=why_not())
 
 @pytest.fixture
 def server(monkeypatch):
-    """A server that answers every request 503 twice before it serves."""
+    """A server that answers each of the first 40 requests 503 twice before it serves."""
     with loopback(refusals=2) as running:
         for name, value in running.environment.items():
             monkeypatch.setenv(name, value)
@@ -46,7 +46,8 @@ def test_a_run_from_storage_to_storage_gives_the_results_of_a_local_one(tmp_path
     compared = signkin("compare", str(local / "results"), str(fetched), folder=tmp_path)
     assert compared.status == 0, compared.text
     refused = {path for (_, path), times in server.refused.items() if times == 2}
-    assert {"/signs/data/mini/m1.csv", "/signs/mine/results/report/index.html"} <= refused
+    assert "/signs/data/mini/m1.csv" in refused
+    assert any(path.startswith("/signs/mine/results/") for path in refused)
     again = checked(run(stored, timeout=LIMIT_S))
     assert "Nothing to be done" in again.text
 
