@@ -129,8 +129,9 @@ def _distances(owner: Owner) -> PlotView:
     return PlotView(
         label="",
         title="Duration and distance of each transition",
-        caption=f"{finding} It is Figure 7 of Naert et al. (2017). Distance: how far apart the two postures are, mean of the normalised "
-        f"distances of position and orientation (where there are orientations).{told}",
+        caption=f"{finding} It is Figure 7 of Naert et al. (2017). Distance: how far apart the two "
+        "postures are, mean of the normalised distances of position and orientation (where there "
+        f"are orientations).{told}",
         drawing=scatter(shown, "mean normalised distance", "duration (s)", finding),
         files=[owner.sources.tagged_file(owner.name, "transitions")],
     )
