@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 
-def chosen(names: Sequence[str], troubles: Mapping[str, int], most: int | None) -> list[str]:
+def chosen(names: Sequence[str], troubles: Mapping[str, float], most: int | None) -> list[str]:
     """Return at most so many of a corpus's recordings, in their order; None: all.
 
-    Half of them are those with the most to look at (troubles: recording -> how many), the others
-    are spread evenly over the rest of the corpus: not fifty of one sign.
+    Half of them are those that most need a look (troubles: recording -> how much), the others are
+    spread evenly over the rest of the corpus: not fifty of one sign.
     """
     if most is None or len(names) <= most:
         return list(names)

@@ -48,7 +48,7 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     troubles = sources.troubles()
-    names = chosen(sources.names(), troubles, sources.settings.most_recordings)
+    names = chosen(sources.names(), sources.gravity(), sources.settings.most_recordings)
     beside = dict(zip(names, zip([None, *names], [*names[1:], None], strict=False), strict=True))
     for name, data in _contents(sources, names):
         html = render(data, *beside[name], listing.name)

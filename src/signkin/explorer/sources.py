@@ -23,6 +23,8 @@ SHARED = ("recordings", "intervals", "minima", "plausibility", "excluded")
 OTHERS = ("boundaries", "boundary_posteriors", "transitions", "synthesis",
           "wrist_boundaries", "wrist_posteriors")  # fmt: skip
 
+NOWHERE_S = 1000.0  # how far from a minimum a tag counts where there is no minimum at all
+
 
 @dataclass(frozen=True)
 class ExplorerSettings:
@@ -83,6 +85,29 @@ class Sources:
         for name, numbers in self.outliers.items():
             found[name] = found.get(name, 0) + len(numbers)
         return found
+
+    def gravity(self) -> dict[str, float]:
+        """Return how grave what is to be looked at is: recording -> the higher the graver.
+
+        In the order of the list on the corpus's page: what cannot be right, then the tags that lie
+        farthest from a minimum, then how much there is.
+        """
+        out = {name: count / 1e6 for name, count in self.troubles().items()}
+        tags = self.tables.get("boundaries")
+        if tags is not None and len(tags):
+            nearest = tags.groupby(["recording", "sign", "edge"]).agg(
+                far=("status", lambda found: set(found) == {"far"}), away=("distance_s", "min")
+            )
+            away = nearest["away"].fillna(NOWHERE_S).where(nearest["far"], 0.0)
+            for name, most in away.groupby("recording").max().items():
+                out[str(name)] = out.get(str(name), 0.0) + float(most)
+        for name in self._wrong()["recording"]:
+            out[str(name)] = out.get(str(name), 0.0) + 2 * NOWHERE_S
+        return out
+
+    def _wrong(self) -> pd.DataFrame:
+        implausible = self.tables["plausibility"]
+        return implausible[implausible["verdict"] == "implausible"].drop_duplicates("recording")
 
     def _troubled(self) -> Iterable[pd.DataFrame]:
         implausible = self.tables["plausibility"]

@@ -231,7 +231,13 @@ def todo_view(owner: Owner, file: Path, elan: dict[str, Path]) -> TableView:
         caption="A tag counts as odd where neither hand has a minimum of speed within "
         f"{owner.window_s:g} s; a transition where it is an outlier, of no length, or where signs "
         "overlap; a recording where lengths or speeds cannot be a body's, much is missing, or it "
-        "stands apart from the others.",
+        "stands apart from the others."
+        + (
+            " Where there is no excerpt, the recording has no page: report.explorer_recordings in "
+            "config.yaml makes more."
+            if frame["page"].eq("").any()
+            else ""
+        ),
         frame=frame,
         columns=columns,
         file=file,
