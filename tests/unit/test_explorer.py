@@ -16,6 +16,7 @@ from signkin.explorer.events import Labels, flags, minima
 from signkin.explorer.packing import packed, unpacked, weight
 from signkin.explorer.pages import write_pages
 from signkin.explorer.skeleton import flat, skeleton
+from signkin.explorer.sources import Sources
 from signkin.settings import Settings
 from signkin.studies.endres2013.posteriors import prior_of
 from signkin.studies.one_wrist.long_series import wrist_in_bins
@@ -294,3 +295,18 @@ def test_an_analysis_that_is_not_there_leaves_the_rest_of_the_page(tmp_path):
     _, data = content_of(tmp_path)
     assert data["skeleton"]["positions"]["rows"] == 100
     assert data["speeds"] is None and data["densities"] == [] and data["lanes"] == []
+
+
+def test_recordings_come_in_the_order_of_the_list_to_work_through():
+    rows = [("far", 0.4, "far"), ("near", 0.1, "moved"), ("farther", 0.9, "far"),
+            ("nowhere", np.nan, "far")]  # fmt: skip
+    tags = pd.DataFrame(
+        [{"recording": r, "sign": 1, "edge": "start", "distance_s": d, "status": s}
+         for r, d, s in rows]
+    )  # fmt: skip
+    none = pd.DataFrame({"recording": ["wrong"], "verdict": ["implausible"]})
+    given = {"plausibility": none, "excluded": none[:0], "boundaries": tags}
+    grave = Sources(None, None, [], [], [], given).gravity()
+    order = sorted(grave, key=lambda name: -grave[name])
+    assert order == ["wrong", "nowhere", "farther", "far", "near"]
+    assert grave["near"] == 0
