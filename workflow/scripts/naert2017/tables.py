@@ -39,9 +39,7 @@ with job(snakemake, analysis=True):
     near = tag_chance(
         corpus, about, intervals, minima, tagged, settings.refinement, snakemake.params.seed
     )
-    posteriors = boundary_posteriors(
-        corpus, tagged, intervals, minima, sign_types, settings.kinematics.lowpass.cutoff_hz
-    )
+    posteriors = boundary_posteriors(corpus, tagged, intervals, minima, sign_types)
     durations = posterior_durations(
         corpus.name,
         moves,

@@ -10,7 +10,6 @@ import pandas as pd
 from signkin.coarticulation import (
     TagModel,
     learn_tag_model,
-    most_outward_s,
     refine_posterior,
 )
 from signkin.coarticulation.segmentation import EDGES
@@ -27,27 +26,29 @@ def boundary_posteriors(
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
     sign_types: pd.DataFrame,
-    cutoff_hz: float,
 ) -> pd.DataFrame:
     """Return the table `boundary_posteriors`; the jitter is learnt from all recordings of a hand.
 
-    names: of the recordings. intervals, minima, sign_types: tables of these names. cutoff_hz: of
-    the low-pass that speeds have gone through.
+    names: of the recordings. intervals, minima, sign_types: tables of these names.
     """
-    start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
+    start = TagModel()
     depth = f"prominence_{corpus.unit}_per_s"
     parts = []
     signs = {name: intervals_of(intervals, name, "sign") for name in names}
     for hand in HANDS:
         acts = {name: acting(corpus, sign_types, name, hand, len(signs[name])) for name in signs}
-        sets = {}
+        sets, rests = {}, {}
         for name, tags in signs.items():
             rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
             times = np.array([(s.start_s, s.end_s) for s in tags]).reshape(-1, 2)
             sets[name] = (times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
-        model = learn_tag_model(list(sets.values()), start, acts=list(acts.values()))
+            rests[name] = rows[["rest_s", "rest_sd_s"]].to_numpy(float)
+        model = learn_tag_model(
+            list(sets.values()), start, rests_s=list(rests.values()), acts=list(acts.values())
+        )
         for name, tags in signs.items():
-            rows = _rows(hand, [s.label for s in tags], sets[name], acts[name], model)
+            glosses = [s.label for s in tags]
+            rows = _rows(hand, glosses, sets[name], rests[name], acts[name], model)
             if model == start:
                 rows["note"] = [f"{n}; {NOT_LEARNT}" if n else NOT_LEARNT for n in rows["note"]]
             parts.append(with_lead(corpus, name, rows))
@@ -75,11 +76,12 @@ def _rows(
     hand: str,
     glosses: list[str],
     given: tuple[np.ndarray, np.ndarray, np.ndarray],
+    rests: np.ndarray,
     acts: np.ndarray,
     model: TagModel,
 ) -> pd.DataFrame:
     tags, times, depth = given
-    found = refine_posterior(tags, times, depth, acts=acts, model=model)
+    found = refine_posterior(tags, times, depth, rests_s=rests, acts=acts, model=model)
     bias = np.broadcast_to(model.bias_s, tags.shape)
     return pd.DataFrame(
         {
@@ -98,7 +100,6 @@ def _rows(
             "acts": np.repeat(acts, 2),
             "bias_s": bias.ravel(),
             "jitter_s": model.sd_s,
-            "outward_s": model.outward_s,
             "note": [str(note) for note in found.notes.ravel()],
         }
     )
