@@ -59,9 +59,9 @@ class Take:
         return np.isfinite(self.truth[hand][:, 0])
 
 
-def simulated(seed: int) -> list[Take]:
-    """Simulate lsf-sim once more."""
-    made = simulate_lsf(seed)
+def simulated(seed: int, parts: int | None = None) -> list[Take]:
+    """Simulate lsf-sim once more, or less of it (`simulate_lsf`)."""
+    made = simulate_lsf(seed, parts)
     joints = list(Body().hierarchy.joints)
     takes = []
     for recording in made.recordings:
