@@ -18,6 +18,7 @@ from signkin.coarticulation import (
 )
 from signkin.coarticulation import refined_posterior as told
 from signkin.coarticulation.tag_order import in_order
+from signkin.kinematics import rest_times
 from tools.refine_posterior import Variant, calibration, simulated
 
 
@@ -113,6 +114,29 @@ def test_without_minima_the_tag_alone_is_told():
     assert found.interval90_s[0, 0] == pytest.approx([1 - half, 1 + half], abs=1e-3)
     assert (found.notes == told.NO_MINIMUM).all()
     assert found.off[0, 0] == pytest.approx(8.6e-4, abs=2e-4)  # 2 Phi(-0.1 / 0.03)
+
+
+def test_a_hand_without_motion_beside_others_in_the_model():
+    """Its tags are told alone; a recording in which it moves teaches, the still one does not."""
+    rng = np.random.default_rng(2)
+    tags, minima, _ = drawn(rng, 60, 0.02)
+    times, sds = rest_times(np.full((3000, 3), 0.4), 100.0, np.empty(0))
+    rests = [np.column_stack([minima, np.full(len(minima), 0.01)]), np.column_stack([times, sds])]
+    both = learn_tag_model([(tags, minima, None), (tags, times, None)], rests_s=rests)
+    assert both == learn_tag_model([(tags, minima, None)], rests_s=rests[:1])
+    still = refine_posterior(tags, times, rests_s=rests[1], model=both)
+    assert (still.notes == told.NO_MINIMUM).all()
+    assert still.mean_s == pytest.approx(tags + np.array(both.bias_s), abs=0.02)
+    assert (still.interval90_s[..., 1] - still.interval90_s[..., 0]).min() > 0.03
+
+
+def test_tags_given_in_another_order_are_the_same():
+    rng = np.random.default_rng(3)
+    tags, minima, _ = drawn(rng, 12, 0.02)
+    order = rng.permutation(len(tags))
+    assert refine_posterior(tags[order], minima, model=ALONE).mean_s == pytest.approx(
+        refine_posterior(tags, minima, model=ALONE).mean_s[order]
+    )
 
 
 def test_a_gross_error_is_told_by_its_probability():

@@ -35,9 +35,9 @@ def rest_times(
     rate_hz = rate(rate_hz)
     times = np.array(minima_s, dtype=float)
     sd = np.full(len(times), REACH_S / np.sqrt(3))
-    there = ~np.isnan(x).any(axis=1)
+    there = np.asarray(~np.isnan(x).any(axis=1))
     x = x[:, np.ptp(x[there], axis=0) > 0] if there.any() else x[:, :0]  # a flat axis tells nothing
-    shifts = np.arange(-round(REACH_S / STEP_S), round(REACH_S / STEP_S) + 1) * STEP_S
+    shifts: Floats = np.arange(-round(REACH_S / STEP_S), round(REACH_S / STEP_S) + 1) * STEP_S
     fits = _Fits(shifts, rate_hz, max(round(window_s * rate_hz), 1))
     found = [fits.about(x, there, frame) for frame in np.rint(times * rate_hz).astype(int).tolist()]
     share = fits.share
