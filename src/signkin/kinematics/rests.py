@@ -37,7 +37,8 @@ def rest_times(
     sd = np.full(len(times), REACH_S / np.sqrt(3))
     there = np.asarray(~np.isnan(x).any(axis=1))
     x = x[:, np.ptp(x[there], axis=0) > 0] if there.any() else x[:, :0]  # a flat axis tells nothing
-    shifts: Floats = np.arange(-round(REACH_S / STEP_S), round(REACH_S / STEP_S) + 1) * STEP_S
+    steps = round(REACH_S / STEP_S)
+    shifts = np.asarray(STEP_S * np.arange(-steps, steps + 1), dtype=np.float64)
     fits = _Fits(shifts, rate_hz, max(round(window_s * rate_hz), 1))
     found = [fits.about(x, there, frame) for frame in np.rint(times * rate_hz).astype(int).tolist()]
     share = fits.share
