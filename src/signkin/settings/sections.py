@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from signkin.settings.base import Hertz, Order, Positive, Section, Share, each_once, key
+from signkin.settings.base import Hertz, Order, Positive, Section, Share, address, each_once, key
 
 Grid = Annotated[tuple[Positive, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
 Shares = Annotated[tuple[Share, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
@@ -262,7 +262,7 @@ class Prior(Section):
         "sensor", "`sensor`: the corpus's noise_sd. `data`: the data's own variances, as the paper "
         "prints, which finds almost no boundaries unless scale is literal.", paper="Endres 3.2",
     )  # fmt: skip
-    dof: Annotated[float, Field(gt=0, le=1e9)] | None = key(
+    dof: Annotated[float, Field(gt=1, le=1e9)] | None = key(  # positions have 2 or 3 dimensions
         None, "Degrees of freedom of the Wishart density; null: the number of dimensions.",
         paper="Endres prints none",
     )  # fmt: skip
@@ -428,8 +428,12 @@ class Settings(Section):
         lt=2**63,
     )  # fmt: skip
     data_dir: str | None = key(
-        None, "Folder of the real recordings; SIGNKIN_DATA or `make DATA=...` go before it. null: "
-        "none.",
+        None, "Folder of the real recordings, or an address that a storage plugin of Snakemake "
+        "knows (s3://bucket/folder); SIGNKIN_DATA or `make DATA=...` go before it. null: none.",
+    )  # fmt: skip
+    results_store: Annotated[str, AfterValidator(address)] | None = key(
+        None, "Address that a whole run copies its results to (s3://bucket/folder), which is "
+        "emptied before; null: they stay in results/ alone.",
     )  # fmt: skip
     corpora: (
         Literal["all"]
