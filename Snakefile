@@ -20,16 +20,12 @@ include: "workflow/rules/endres2013.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/audit.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/store.smk"
 
 
 rule all:
     """Everything this run can make."""
     default_target: True
     input:
-        "<results>/report/index.html",
-        rules.naert2017.input,
-        rules.syntheses.input,
-        rules.endres2013.input,
-        rules.naert2017_durations.input,
-        rules.audit.input,
-        rules.explorers.input,
+        RESULTS,
+        rules.store.output if SETTINGS.results_store else [],

@@ -142,9 +142,11 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
     from signkin.errors import SignkinError
     from signkin.forked import FORKS
     from signkin.lock import held
+    from signkin.memory import check_memory, limits, limits_of_jobs
+    from signkin.options import executors, profiles, refuse_options, values
     from signkin.pages.times import write_times
     from signkin.results.written import STATE, take_out_changed
-    from signkin.slurm import executors, slurm_arguments
+    from signkin.slurm import slurm_arguments
     from signkin.yaml_file import read_yaml
 
     folder = folder or Path.cwd()
@@ -154,7 +156,14 @@ def run_workflow(extra: list[str], folder: Path | None = None, brief: bool = Fal
             read_yaml(folder / "config.yaml")  # Snakemake would end in a traceback
         if not FORKS or executors(extra, folder):
             refuse_unquotable(sys.executable)
+        refuse_options(extra, folder)
         extra = [*slurm_arguments(extra, folder), *extra]
+        elsewhere = bool(executors(extra, folder))
+        found = limits_of_jobs(profiles(extra, folder)) if elsewhere else limits(extra)
+        cores = values(extra, "--cores", "-c", "--jobs", "-j")[-1:]
+        at_once = int(cores[0]) if cores and cores[0].isdigit() else os.cpu_count() or 1
+        if told := check_memory(folder / "logs", found, at_once):
+            print(f"signkin: {told}", file=sys.stderr)
         if find_spec("snakemake") is None:
             raise SignkinError(
                 "Snakemake, which runs the workflow, is not installed",

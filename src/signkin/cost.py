@@ -31,7 +31,9 @@ def noted(log: str | Path, rule: str, about: str = "") -> Iterator[None]:
         }
         path = Path(log).with_suffix(SUFFIX)
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps(cost) + "\n", encoding="utf-8")
+        unfinished = path.with_suffix(".part")  # a killed job leaves no half of it
+        unfinished.write_text(json.dumps(cost) + "\n", encoding="utf-8")
+        unfinished.replace(path)
 
 
 def _peak_mb() -> float | None:

@@ -16,6 +16,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import runpy
+import signal
 import subprocess
 import sys
 import threading
@@ -50,6 +51,9 @@ def _fork_scripts() -> None:
             started_by_shell(self, fname, edit)
             return
         status = run_forked(Path(fname))
+        if status == -signal.SIGKILL:
+            told = f"signkin: a job of the step {self.rulename} was killed (signal 9)"
+            print(f"\n{told}: the kernel does that where memory runs out.\n", file=sys.stderr)
         if status:
             raise subprocess.CalledProcessError(status, [sys.executable, str(fname)])
 

@@ -44,7 +44,7 @@ class Work:
         try:
             yield
         except Exception as error:
-            if not self.optional:
+            if not self.optional or isinstance(error, MemoryError):
                 raise
             self.lacks(name, error, *files, kind=kind)
 
@@ -130,6 +130,14 @@ def job(snakemake: Any, *, analysis: bool = False) -> Iterator[Work]:
         work = Work(snakemake, analysis, terminal)
         try:
             yield work
+        except MemoryError as error:
+            # Of any job: what is made must not hang on how much memory there was.
+            text = f"signkin: no memory left ({str(error).strip() or 'MemoryError'}). Raise the "
+            text += "limit, or set recordings_per_job lower."
+            traceback.print_exception(error, file=log)
+            print(text, file=log)
+            print(f"\n{text}\n", file=terminal)
+            sys.exit(1)
         except SignkinError as error:
             if not work.optional:
                 print(f"signkin: {error}", file=log)

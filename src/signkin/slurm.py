@@ -13,12 +13,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from signkin.errors import SignkinError
-from signkin.yaml_file import read_yaml
+from signkin.options import executors, profiles, values
 
 STATUS = "--slurm-status-command"
 # The executor asks squeue 40 s after a job was handed over, and up to three times.
 LEAST_JOB_AGE_S = 120
-PROFILE_FILES = ("profile.yaml", "config.yaml", "config.v8+.yaml")
 
 
 def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
@@ -37,9 +36,9 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
             todo="Run there, or leave out the SLURM profile to run on this machine.",
         )
     config = _asked("scontrol", "show", "config")
-    for options in _profiles(extra, folder):
+    for options in profiles(extra, folder):
         _check_partitions(options)
-    if _values(extra, STATUS) or _config(config, "AccountingStorageType") not in (
+    if values(extra, STATUS) or _config(config, "AccountingStorageType") not in (
         "accounting_storage/none", "(null)", "",
     ):  # fmt: skip
         return []
@@ -52,37 +51,6 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
             todo="Ask the cluster's administrator for one of the two.",
         )
     return [STATUS, "squeue"]
-
-
-def executors(extra: Sequence[str], folder: Path) -> list[str]:
-    """Return what is to run jobs instead of this machine, by arguments for Snakemake."""
-    told = [str(options.get("executor") or "") for options in _profiles(extra, folder)]
-    return _values(extra, "--executor", "-e") or [name for name in told if name]
-
-
-def _profiles(extra: Sequence[str], folder: Path) -> list[dict[str, object]]:
-    return [_profile(folder / name) for name in _values(extra, "--profile", "--workflow-profile")]
-
-
-def _values(words: Sequence[str], *options: str) -> list[str]:
-    """Return the values of command line options, given as two words or with `=`."""
-    out = []
-    for i, word in enumerate(words):
-        if word == "--":
-            break
-        name, equals, value = word.partition("=")
-        if name in options:
-            out += [value] if equals else list(words[i + 1 : i + 2])
-    return out
-
-
-def _profile(path: Path) -> dict[str, object]:
-    """Return a profile's settings; none where it is not there: Snakemake tells of that."""
-    for file in (path / name for name in PROFILE_FILES):
-        if file.is_file():
-            content = read_yaml(file)
-            return content if isinstance(content, dict) else {}
-    return {}
 
 
 def _asked(*command: str) -> str:

@@ -2,7 +2,7 @@
 
     make test-faults                       all of them; 20 kills of the whole run
     make test-faults ARGS="--kills 3"      fewer kills
-    make test-faults ARGS="--write"        the table into docs/reliability.md as well
+    make test-faults ARGS="--write"        the rows into the table of docs/reliability.md as well
 
 The run is that of a mini corpus up to its tables of refined tags: ten jobs, some in step. What
 the next run gives is compared, byte by byte, with a run that nobody disturbed.
@@ -220,6 +220,71 @@ def parts_killed(bench: Bench) -> Iterator[Row]:
         yield Row(f"{what} killed alone", f"{told}; {beside}{left}", then, ok and nothing)
 
 
+def jobs_of(session: int) -> list[int]:
+    """Return the jobs that run: forks of the process that jobs are forked from."""
+    servers = set(named(session, "multiprocessing.forkserver"))
+    out = []
+    for pid in servers:
+        try:
+            parent = int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+        out += [pid] if parent in servers else []
+    return sorted(out)
+
+
+def job_killed(bench: Bench, number: int) -> tuple[str, bool]:
+    """Kill the `number`th job that is seen, and run again."""
+    folder = bench.fresh(f"job-{number}")
+    seen: set[int] = set()
+    with bench.running(folder) as process:
+        while process.poll() is None and len(seen) < number:
+            for pid in set(jobs_of(process.pid)) - seen:
+                seen.add(pid)
+                if len(seen) == number:
+                    os.kill(pid, signal.SIGKILL)
+            time.sleep(0.005)
+        process.wait(PATIENCE_S)
+    if "was killed (signal 9)" not in (folder / "run.log").read_text() or not process.returncode:
+        return f"status {process.returncode}, the kill is not told", False
+    return bench.then(folder)
+
+
+def jobs_killed(bench: Bench, count: int = 5) -> Iterator[Row]:
+    found = [job_killed(bench, 1 + number) for number in range(count)]
+    kept = sum(ok for _, ok in found)
+    worst = next((then for then, ok in found if not ok), "")
+    yield Row(
+        "a single job killed", f"{count} runs, the 1st to {count}th job; the run fails and says so",
+        f"{kept} of {count} equal bytes" + (f"; {worst}" if worst else ""), kept == count,
+    )  # fmt: skip
+
+
+def second_run(bench: Bench) -> Iterator[Row]:
+    """Start a run beside one that is at work."""
+    folder = bench.fresh("second")
+    with bench.running(folder, until=ENDED) as process:
+        beside = bench.finish(folder)
+        at_work = process.poll() is None
+        process.wait(PATIENCE_S)
+    other = bench.equal(folder)
+    then = f"differs: {other}" if other else "the first run ends with equal bytes"
+    refused = at_work and beside.status == 1 and "another run is at work" in beside.text
+    said = sentence(beside.text).replace(str(folder), "...")
+    yield Row("a second run beside", f"status {beside.status}: “{said}”", then,
+              refused and not process.returncode and not other)  # fmt: skip
+
+
+def leftovers(bench: Bench) -> Iterator[Row]:
+    """Ask for what failed jobs left half made to be kept."""
+    folder = bench.fresh("leftovers")
+    done = run(folder, "--keep-incomplete", "--", TARGET, data=bench.data)
+    nothing = not (folder / "results").exists()
+    then, ok = bench.then(folder)
+    yield Row("`--keep-incomplete`", f"status {done.status}: “{sentence(done.text)}”", then,
+              ok and nothing and done.status == 1)  # fmt: skip
+
+
 # --- files -------------------------------------------------------------------------------------
 
 
@@ -356,6 +421,9 @@ def odd_place(bench: Bench) -> Iterator[Row]:
 PARTS: Mapping[str, Callable[[Bench], Iterator[Row]]] = {
     "signals": signals,
     "parts": parts_killed,
+    "jobs": jobs_killed,
+    "second": second_run,
+    "leftovers": leftovers,
     "damaged": damaged,
     "deleted": deleted,
     "disk": full_disk,
@@ -365,11 +433,15 @@ PARTS: Mapping[str, Callable[[Bench], Iterator[Row]]] = {
 }
 
 
-def table(rows: list[Row]) -> str:
-    lines = ["| fault | what was done | what the next run gave | |", "|---|---|---|---|"]
-    lines += [f"| {r.fault} | {r.done} | {r.then} | {'' if r.kept else '**not kept**'} |"
-              for r in rows]  # fmt: skip
-    return "\n".join(lines)
+def table(rows: list[Row], before: str) -> str:
+    """Return the table with new rows, each in the place of an older one of its fault."""
+    head = "| fault | what was done | what the next run gave | |"
+    old = [line for line in before.splitlines() if line.startswith("| ") and line != head]
+    lines = {line.split(" | ")[0].removeprefix("| "): line for line in old}
+    for r in rows:
+        mark = "" if r.kept else "**not kept**"
+        lines[r.fault] = f"| {r.fault} | {r.done} | {r.then} | {mark} |"
+    return "\n".join([head, "|---|---|---|---|", *lines.values()])
 
 
 def main() -> int:
@@ -390,7 +462,7 @@ def main() -> int:
     if told.write:
         text = DOC.read_text(encoding="utf-8")
         start, end = (text.index(mark) for mark in MARKS)
-        made = f"{MARKS[0]}\n\n{table(rows)}\n\n"
+        made = f"{MARKS[0]}\n\n{table(rows, text[start:end])}\n\n"
         DOC.write_text(text[:start] + made + text[end:], encoding="utf-8")
     return 0 if all(row.kept for row in rows) else 1
 

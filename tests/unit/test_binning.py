@@ -434,6 +434,8 @@ def test_bad_input_is_told_with_the_name_of_the_trajectory(case):
     [
         ({"noise_sd": 0.0}, "noise_sd"),
         ({"noise_sd": -1.0}, "noise_sd"),
+        ({"noise_sd": 1e-300}, "noise_sd is 1e-300; expected .* between 1e-150 and"),
+        ({"noise_sd": 1e300}, "noise_sd is 1e.300; expected"),
         ({"noise_sd": float("nan")}, "noise_sd"),
         ({"noise_sd": (1.0, 0.0, 1.0)}, "noise_sd"),
         ({"noise_sd": 1.0, "concentration": 0.0}, "concentration"),

@@ -67,6 +67,9 @@ def test_every_key_is_described():
             {"synthesis": {"utterances": [{"corpus": "a", "name": "n", "glosses": ["x"]}] * 2}},
             "two utterances of a are named n",
         ),
+        ({"results_store": "bucket/mine"}, "'bucket/mine' is no address, s3://bucket/folder"),
+        ({"binning": {"prior": {"concentration": 1e-300}}}, "prior.concentration: 1e-300"),
+        ({"binning": {"prior": {"dof": 1e-300}}}, "prior.dof: 1e-300; expected greater than 1"),
         ([], "no keys"),
     ],
 )  # fmt: skip

@@ -3,13 +3,16 @@ from pathlib import Path
 
 from signkin.errors import SignkinError
 from signkin.stages.plan import make_plan
+from signkin.stages.remote import Remote
 from signkin.yaml_file import read_yaml
 from snakemake.exceptions import WorkflowError
 
 try:
     for file in workflow.configfiles:  # Snakemake takes a key that stands twice
         read_yaml(Path(file))
-    PLAN = make_plan(config, workflow.basedir)
+    PLAN = make_plan(
+        config, workflow.basedir, remote=Remote(storage, lambda file: exists(file))
+    )
 except SignkinError as error:
     raise WorkflowError(f"signkin: {error}") from None
 

@@ -39,6 +39,7 @@ rule report:
             for name in ("exhibits.yaml", "constants.csv", "table2.csv")
         ],
         descriptions=[PLAN.description(corpus) for corpus in PLAN.corpora],
+        fetched=PLAN.fetched_files(),  # whose hashes the pages tell
     output:
         front="<results>/report/index.html",
         pages=[f"<results>/report/{name}.html" for name in ("methods", "provenance")],
@@ -55,6 +56,6 @@ rule report:
         folders={name: str(folder) for name, folder in PLAN.folders.items()},
         corpora={name: str(corpus.folder) for name, corpus in PLAN.corpora.items()},
         missing=dict(PLAN.missing),
-        settings=SETTINGS.model_copy(update={"data_dir": None}),
+        settings=SETTINGS.model_copy(update={"data_dir": None, "results_store": None}),
     script:
         "../scripts/pages/report.py"

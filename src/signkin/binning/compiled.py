@@ -30,6 +30,7 @@ KERNELS = (
     "log_domain",
     "maxima",
     "pairs",
+    "prices",
     "segmentation",
     "segments",
     "sum_product",
@@ -65,6 +66,7 @@ def compile_kernels() -> None:
             found.map_trajectory(1)
             found.boundaries(1)
     log_evidence(rng.normal(size=(12, 2)), (0, 1), prior)
+    fit(rng.normal(size=(EVERY_COUNT_UP_TO + 1, 2)), (0,), prior, max_segment_bins=9, whole_up_to=1)
     match([0.1], [0.1])
     hit_rate([0.1], [0.1], duration_s=1.0)
     shifted_hits([0.1], [0.1], 0.1, duration_s=1.0)

@@ -36,20 +36,19 @@ def _greedy(
         left[i] = math.ldexp(
             np.rint(math.ldexp(probability[i], digits - exponent)), exponent - digits
         )
-    free = np.full(n, -np.inf)
+    peak = np.zeros(n, dtype=np.bool_)
     for i in range(n):
         rises = i == 0 or left[i] >= left[i - 1]
-        if rises and (i == n - 1 or left[i] >= left[i + 1]) and left[i] > 0:
-            free[i] = left[i]
+        peak[i] = rises and (i == n - 1 or left[i] >= left[i + 1]) and left[i] > 0
+    places = np.flatnonzero(peak)
     taken = np.zeros(n, dtype=np.bool_)
-    for _ in range(count):
-        best = -1
-        for i in range(n):
-            if free[i] > -np.inf and (best < 0 or free[i] > free[best]):
-                best = i
-        if best < 0:
+    cleared = np.zeros(n, dtype=np.bool_)
+    room = count
+    for place in places[np.argsort(-left[places], kind="mergesort")]:  # stable
+        if room == 0:
             break
-        taken[best] = True
-        for i in range(max(0, best - clearance), min(n, best + clearance + 1)):
-            free[i] = -np.inf
+        if not cleared[place]:
+            taken[place] = True
+            room -= 1
+            cleared[max(0, place - clearance) : place + clearance + 1] = True
     return np.flatnonzero(taken)

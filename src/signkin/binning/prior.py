@@ -23,6 +23,7 @@ TIME_UNITS = ("bin", "second", "trajectory")
 SCALES = ("expected", "plain", "literal")
 HIGHEST_ORDER = 9
 ROUND = 25  # bins: geometries are made for a multiple of it
+LEAST_SD, MOST_SD = 1e-150, 1e150  # of noise: beyond, squares are 0 or infinite
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,9 @@ class Prior:
             object.__setattr__(self, "noise_sd", tuple(deviations.tolist()))
         if not (len(deviations) and np.isfinite(deviations).all() and (deviations > 0).all()):
             raise _error("noise_sd", self.noise_sd, "a standard deviation above 0")
+        if not ((deviations > LEAST_SD) & (deviations < MOST_SD)).all():  # their squares are used
+            told = f"a standard deviation between {LEAST_SD:g} and {MOST_SD:g}"
+            raise _error("noise_sd", self.noise_sd, told)
         b = _numbers("concentration", self.concentration, "a number above 0")
         if not (len(b) == 1 and np.isfinite(b[0]) and b[0] > 0):
             raise _error("concentration", self.concentration, "a number above 0")

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from signkin.figures.style import ACCENT, NEUTRAL, PALE, RIGHT
 
+UNJUDGED = "white: not to be judged"  # under a reading
 CLOUD = 150  # points of one panel that are saved as a picture, not one by one
 
 
@@ -45,7 +46,9 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
 
 
 def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> Axes:
-    """Draw a row a claim and a column a reading: filled where it holds, open where it fails.
+    """Draw a row a claim and a column a reading: dark where it holds, pale where it fails.
+
+    What is left white has nothing to judge it by; the legend says so where there is any.
 
     readings: a column a claim, `yes`, `no` or empty where there is nothing to judge it by.
     """
@@ -57,6 +60,8 @@ def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> A
                 ax.add_artist(_bars(here, y, colour))
     for value, colour in (("holds", RIGHT), ("fails", PALE)):
         ax.plot([], [], marker="s", ls="none", color=colour, label=value)
+    if not readings[list(claims)].isin(["yes", "no"]).all(axis=None):
+        ax.plot([], [], marker="s", ls="none", mfc="white", mec=NEUTRAL, mew=0.7, label=UNJUDGED)
     ax.set_yticks(np.arange(len(claims)), claims)
     ax.set(ylim=(len(claims) - 0.5, -0.5), xlim=(-1, len(readings)))
     ax.tick_params(axis="y", length=0)

@@ -45,6 +45,14 @@ def each_once(values: tuple[Any, ...]) -> tuple[Any, ...]:
     return values
 
 
+def address(text: str) -> str:
+    """Refuse what is no address of a storage service."""
+    scheme, separator, place = text.partition("://")
+    if not (separator and scheme.isalnum() and place.strip("/")):
+        raise ValueError(f"{text!r} is no address, s3://bucket/folder")
+    return text
+
+
 Share = Annotated[float, Field(ge=0, le=1)]
 Positive = Annotated[float, Field(gt=0)]
 Hertz = Annotated[float, Field(gt=0, le=100_000)]

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from signkin.settings.base import Hertz, Order, Positive, Section, Share, each_once, key
+from signkin.settings.base import Hertz, Order, Positive, Section, Share, address, each_once, key
 
 Grid = Annotated[tuple[Positive, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
 Shares = Annotated[tuple[Share, ...], Field(min_length=1, strict=False), AfterValidator(each_once)]
@@ -262,7 +262,7 @@ class Prior(Section):
         "sensor", "`sensor`: the corpus's noise_sd. `data`: the data's own variances, as the paper "
         "prints, which finds almost no boundaries unless scale is literal.", paper="Endres 3.2",
     )  # fmt: skip
-    dof: Annotated[float, Field(gt=0, le=1e9)] | None = key(
+    dof: Annotated[float, Field(gt=1, le=1e9)] | None = key(  # positions have 2 or 3 dimensions
         None, "Degrees of freedom of the Wishart density; null: the number of dimensions.",
         paper="Endres prints none",
     )  # fmt: skip
@@ -399,6 +399,18 @@ class OpenChoices(Section):
     endres2013: EndresChoices = EndresChoices()
 
 
+class Samples(Section):
+    """What is drawn at random, or made anew, is of a seeded sample of a larger corpus's recordings.
+
+    So that such a step costs the same whatever the corpus; each table tells where it is a sample.
+    """
+
+    transitions: int = key(
+        700, "Recordings are drawn until they hold so many pairs of neighbouring signs: for chance "
+        "baselines, the jitter of tags, open choices, excerpts, agreement and synthesis.", ge=2,
+    )  # fmt: skip
+
+
 class Report(Section):
     """The pages of a run."""
 
@@ -416,8 +428,12 @@ class Settings(Section):
         lt=2**63,
     )  # fmt: skip
     data_dir: str | None = key(
-        None, "Folder of the real recordings; SIGNKIN_DATA or `make DATA=...` go before it. null: "
-        "none.",
+        None, "Folder of the real recordings, or an address that a storage plugin of Snakemake "
+        "knows (s3://bucket/folder); SIGNKIN_DATA or `make DATA=...` go before it. null: none.",
+    )  # fmt: skip
+    results_store: Annotated[str, AfterValidator(address)] | None = key(
+        None, "Address that a whole run copies its results to (s3://bucket/folder), which is "
+        "emptied before; null: they stay in results/ alone.",
     )  # fmt: skip
     corpora: (
         Literal["all"]
@@ -439,4 +455,5 @@ class Settings(Section):
     powerlaw: PowerLaw = PowerLaw()
     binning: Binning = Binning()
     open_choices: OpenChoices = OpenChoices()
+    samples: Samples = Samples()
     report: Report = Report()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from signkin.provenance import code_digest
 from signkin.ratings import TAG_FILE
 from signkin.settings import Settings, load_settings
 from signkin.settings.checks import check_rate, check_shown_orders
+from signkin.stages.remote import Remote, is_address
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,8 @@ class Plan:
     """The corpora of a run, and its settings.
 
     corpora: those whose data are there, by name. folders: their data folders.
-    missing: corpus -> why it is left out of this run.
+    missing: corpus -> why it is left out of this run. remote: storage that recordings are fetched
+    from, where they do not lie on this machine, and addresses the folders there, by corpus.
     """
 
     corpora: Mapping[str, Corpus]
@@ -36,6 +38,8 @@ class Plan:
     settings: Settings
     root: Path
     papers: Path
+    remote: Remote | None = None
+    addresses: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def tagged(self) -> list[str]:
@@ -132,8 +136,14 @@ class Plan:
         """Return the annotation files of the further annotators of a corpus that are there."""
         return self._there(corpus, self.corpora[corpus].annotator_files())
 
+    def fetched_files(self) -> list[str]:
+        """Return all data files that are fetched from storage."""
+        return [file for corpus in self.addresses for file in self.corpora_files(corpus)]
+
     def _there(self, corpus: str, names: list[str]) -> list[str]:
         """Return the paths of data files; a corpus that skips recordings may lack some."""
+        if self.remote and (address := self.addresses.get(corpus)):
+            return [self.remote.recorded(address, name) for name in names]
         paths = [self.folders[corpus] / name for name in names]
         skips = self.corpora[corpus].skips
         return [str(path) for path in paths if not skips or path.exists()]
@@ -160,11 +170,15 @@ class Plan:
         return code_digest(self.root / "workflow" / "scripts" / script)
 
 
-def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "results") -> Plan:
+def make_plan(
+    config: Mapping[str, Any], root: str | Path, results: str = "results",
+    remote: Remote | None = None,
+) -> Plan:  # fmt: skip
     """Check the configuration and every corpus, and find out what can be run.
 
     config: the content of config.yaml. root: the folder of the Snakefile, where corpora and papers
-    lie unless the working directory has homes of its own of these names.
+    lie unless the working directory has homes of its own of these names. remote: what fetches
+    recordings where data_dir is an address.
     """
     settings = load_settings(config)
     check_shown_orders(settings, "config.yaml")
@@ -175,7 +189,15 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
     )
     _check_utterances(settings, root, corpora)
     data_dir = data_dir_of(settings.data_dir)
-    if data_dir is not None and not Path(data_dir).is_dir():
+    fetched = is_address(data_dir)
+    if fetched and remote is None:
+        raise SignkinError(
+            f"{data_dir} is an address, from which `signkin run` alone fetches",
+            place="data_dir",
+            expected="a folder",
+            todo="Copy the recordings to a folder and set SIGNKIN_DATA to it.",
+        )
+    if data_dir is not None and not fetched and not Path(data_dir).is_dir():
         raise SignkinError(
             f"there is no folder {data_dir}",
             place="data_dir",
@@ -185,12 +207,17 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
     there: dict[str, Corpus] = {}
     folders: dict[str, Path] = {}
     missing: dict[str, str] = {}
+    addresses: dict[str, str] = {}
     for name, corpus in corpora.items():
-        folder = data_folder(corpus, data_dir, Path(results))
+        folder = data_folder(corpus, None if fetched else data_dir, Path(results))
+        if folder is None and fetched and remote and data_dir:
+            folder = remote.folder(corpus, data_dir)
+            if folder is not None:
+                addresses[name] = remote.address(corpus, data_dir)
         if folder is None:
             missing[name] = _why_missing(corpus, data_dir)
             continue
-        if not corpus.made_by_run:
+        if not corpus.made_by_run and name not in addresses:
             check_files(corpus, folder)
         if corpus.declared_rate_hz is not None:
             check_rate(settings, corpus.declared_rate_hz, name, "config.yaml")
@@ -203,6 +230,8 @@ def make_plan(config: Mapping[str, Any], root: str | Path, results: str = "resul
         settings=settings,
         root=root,
         papers=_own_or_shipped(settings.papers_dir, root),
+        remote=remote,
+        addresses=addresses,
     )
 
 
