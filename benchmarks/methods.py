@@ -14,7 +14,7 @@ from scipy.signal import savgol_filter
 from benchmarks.cubic_cost import CompiledCost, MomentsCost
 from benchmarks.trajectories import BIN_S, NOISE_SD
 from signkin.binning import Prior, fit
-from signkin.binning.posterior import greedy_maxima
+from signkin.binning.maxima import greedy_maxima
 
 F = NDArray[np.float64]
 Boundaries = NDArray[np.int64]

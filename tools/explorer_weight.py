@@ -2,13 +2,15 @@
 
 Makes the page of a recording that is as long as is asked for: a recording of a finished run, its
 motion and its tags one after the other as often as it takes, at the rate given. Tells the page's
-bytes, what of it takes most, and how many frames a second of the skeleton it holds. PAGES: the
+bytes, what of it takes most, how many frames a second of the skeleton it holds, and the time and
+memory (of Linux) of making it and of what it is made of. PAGES: the
 folder that the page is written to, `build/explorer` if none is given.
 """
 
 from __future__ import annotations
 
 import json
+import resource
 import sys
 import time
 from collections.abc import Mapping
@@ -109,7 +111,11 @@ def main(results: str, corpus_name: str, name: str, minutes: str, rate: str, pag
     file.write_text(html, encoding="utf-8")
     parts = {key: len(json.dumps(value)) for key, value in data.items()}
     heaviest = sorted(parts.items(), key=lambda part: -part[1])[:6]
-    print(f"{file}: {file.stat().st_size:,} bytes, made in {took:.1f} s")
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    print(
+        f"{file}: {file.stat().st_size:,} bytes, made in {took:.1f} s; {len(recording.times_s):,} "
+        f"frames; in all {used.ru_utime + used.ru_stime:.0f} s of CPU, {used.ru_maxrss / 1024:.0f} MB"
+    )
     print(", ".join(f"{key} {size:,}" for key, size in heaviest), f"; all {len(as_json(data)):,}")
     body, methods = data["skeleton"], list((data["syntheses"] or {}).get("methods", {}))
     print(

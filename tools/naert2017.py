@@ -21,6 +21,7 @@ from signkin.statistics.descriptive import outliers, trend
 from signkin.studies.naert2017 import simulation
 from signkin.studies.naert2017.figures import fig09_segmentations
 from signkin.studies.naert2017.refinement import boundaries, refinement
+from signkin.studies.naert2017.sampling import Sample
 from signkin.studies.naert2017.settings import TransitionSettings
 from signkin.studies.naert2017.transitions import counted, transitions
 from tools.numbers import table
@@ -57,9 +58,11 @@ def measures(
     chosen = TransitionSettings.of(settings)
     made = transitions(corpus, read.recordings, frames, intervals, bounds, chosen)
     moves = with_normalised(made["raw_transitions"], corpus.unit)
+    tagged = tuple(dict.fromkeys(bounds["recording"]))
     quality, _ = refinement(
         corpus, read.table("recordings"), intervals, minima, bounds,
         settings.refinement.model_copy(update={"draws": 300}), settings.seed,
+        Sample(tagged, len(tagged)),
     )  # fmt: skip
     right = quality[quality["hand"] == "right"].set_index("measure")
     near = right.loc["tags with a minimum within the window"]

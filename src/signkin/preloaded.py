@@ -45,11 +45,13 @@ def _draw() -> None:
     """Draw a figure as jobs do: fonts, formulas and what writes SVG and PDF are read by then."""
     from matplotlib import pyplot as plt
 
+    from signkin.figures.fonts import cut_fonts
     from signkin.figures.style import paper_style
 
-    with paper_style():
+    with paper_style(), cut_fonts():
         figure, ax = plt.subplots()
         ax.set_title(r"$\beta = -\frac{1}{3}$ –")
+        ax.set_xlabel("bold", weight="bold")
         for kind in ("svg", "pdf"):
             figure.savefig(BytesIO(), format=kind)
         plt.close(figure)

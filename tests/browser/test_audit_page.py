@@ -48,10 +48,12 @@ def test_it_tells_where_the_two_papers_agree(audit_page):
 
 
 def test_its_figures_are_drawn(audit_page):
+    audit_page.evaluate("document.querySelectorAll('main details').forEach(d => d.open = true)")
     images = audit_page.locator("img")
     assert images.count() >= 5
     for image in images.all():
         image.scroll_into_view_if_needed()
+        audit_page.wait_for_function("e => e.complete", arg=image.element_handle())
         assert image.evaluate("e => e.naturalWidth") > 300
 
 

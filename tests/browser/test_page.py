@@ -160,6 +160,55 @@ def test_a_chosen_recording_or_signer_is_marked_in_tables_and_plots(opened, home
     assert two.locator("svg.plot .on").count() == 40
 
 
+def test_a_point_of_figure_7_opens_at_its_transition(opened, home):
+    page = opened(home / "corpora/lsf-sim.html")
+    box = page.locator(".exhibit", has=page.locator("h3", has_text="Duration and distance"))
+    points = box.locator("[data-open]")
+    assert points.count() == box.locator("svg [data-recording]").count() > 10
+    address = points.nth(3).get_attribute("data-open")
+    at = float(address.partition("#t=")[2])
+    points.nth(3).dispatch_event("click")
+    place = box.locator(".marked a")
+    assert place.get_attribute("href") == address
+    assert page.locator("#recordings tr.on").count() == 1
+    place.click()
+    page.wait_for_selector("body[data-ready=yes]")
+    assert float(page.get_attribute("body", "data-time")) == pytest.approx(at, abs=0.01)
+    assert "Transition" in page.inner_text("#pair-title")
+
+
+def test_every_table_of_a_corpus_fits_a_screen(opened, home):
+    page = opened(home / "corpora/lsf-sim.html")
+    wide = page.locator(".scroll").evaluate_all(
+        "all => all.filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.dataset.title)"
+    )
+    assert "All recordings" not in wide
+    assert "Recordings, tags and transitions that look odd" not in wide
+    heads = page.locator("#recordings th").all_inner_texts()
+    assert any(head.startswith("what looks odd") for head in heads)
+
+
+def test_what_is_folded_opens_by_its_address_at_once_and_on_paper(opened, home):
+    audit = home.parent / "audit/index.html"
+    page = opened(audit)
+    folds = page.locator("main details.fold")
+    shut = page.locator("main details.fold:not([open])").count()
+    assert 30 < shut < folds.count()
+    claims = page.locator("#naert2017 > .exhibit")
+    assert claims.first.locator(".label").inner_text() == "N18"  # inconsistent: first, and open
+    assert claims.first.locator("details.fold").first.get_attribute("open") is not None
+    assert "consistent" in claims.nth(1).locator(".brief").inner_text()
+    page.locator("nav .inner", has_text="N05").first.click()
+    opened_one = page.locator(".exhibit", has=page.locator(".label", has_text="N05")).first
+    assert opened_one.locator("table").first.is_visible()
+    page.get_by_role("button", name="Close all of Naert").click()
+    assert not opened_one.locator("table").first.is_visible()
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert page.locator("main details.fold:not([open])").count() == 0
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert page.locator("main details.fold:not([open])").count() >= shut
+
+
 def test_ratings_are_kept_and_saved_as_csv(opened, home, tmp_path):
     page = opened(home / "corpora/lsf-sim.html")
     row = page.locator("#recordings tr[data-recording='lsf-sim-2']")
@@ -198,3 +247,5 @@ def test_print_hides_what_only_a_screen_needs(opened, report):
     page.emulate_media(media="print")
     assert not page.locator("nav").is_visible()
     assert page.locator("#summary table").is_visible()
+    page.set_viewport_size({"width": 718, "height": 1000})  # A4 without margins
+    assert page.evaluate("document.documentElement.scrollWidth") <= 718

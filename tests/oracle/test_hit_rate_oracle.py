@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
 from signkin.binning import HitRate, chance_line, hpfpps, match
-from signkin.binning.hit_rate import TOLERANCE_S, _hits
+from signkin.binning.hit_rate import TOLERANCE_S
+from signkin.binning.pairs import hits_of_many
 
 WINDOW = 0.09
 times = st.lists(st.integers(0, 60).map(lambda n: n / 40), max_size=14)  # with ties and edges
@@ -54,7 +55,7 @@ def test_counting_alone_finds_as_many_pairs(trajectories):
     flat = [
         np.concatenate([np.sort(np.array(x, dtype=float)) for x in s]) for s in (predicted, truth)
     ]
-    found = _hits(flat[0], counts[0], flat[1], counts[1], WINDOW + TOLERANCE_S)
+    found = hits_of_many(flat[0], counts[0], flat[1], counts[1], WINDOW + TOLERANCE_S)
     assert found.tolist() == [score(p, t)[0] for p, t in trajectories]
 
 

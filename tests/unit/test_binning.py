@@ -10,7 +10,7 @@ from scipy.special import logsumexp
 from signkin import SignkinError
 from signkin.binning import Posterior, Prior, fit, fit_many, segment_log_evidence
 from signkin.binning.band import fit_order_in_band
-from signkin.binning.posterior import greedy_maxima
+from signkin.binning.maxima import greedy_maxima
 from signkin.binning.segmentation_prior import log_prior_of
 
 PRIOR = Prior(noise_sd=0.5)

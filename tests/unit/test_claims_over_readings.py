@@ -5,6 +5,7 @@ import pytest
 
 from signkin import tables
 from signkin.audit.paper import read_paper
+from signkin.figures.specification import UNJUDGED
 from signkin.figures.style import paper_style
 from signkin.pages.readings import draw_readings, told
 
@@ -51,6 +52,8 @@ def test_what_keeps_the_print_is_judged_claim_by_claim(drawn):
     assert (points["E09"] == "yes").all() and (points["E02"] == "no").all()
     assert (points["E08"] == "").all()  # without a ratio there is nothing to judge
     assert len(one.figure.axes) == 3
+    (legend,) = one.figure.legends
+    assert [t.get_text() for t in legend.get_texts()] == ["holds", "fails", UNJUDGED]
 
 
 def test_the_words_count_what_the_figure_shows(drawn):

@@ -202,7 +202,7 @@ def test_two_annotators_lead_and_come_nearer(session, monkeypatch):
     monkeypatch.setattr(study, "DRAWS", 10)
     monkeypatch.setattr("signkin.studies.naert2017.annotators_refined.DRAWS",
                         {"rule": 40, "posterior": 3})  # fmt: skip
-    made = study.agreement(*session, 0.15, 1)
+    made = study.agreement(*session, 0.15, 1, 700)
     for name, table in made.items():
         assert list(table.columns) == tables.TABLES[name].names()
     scores = made["annotator_agreement"]
@@ -223,7 +223,7 @@ def test_two_annotators_lead_and_come_nearer(session, monkeypatch):
 def test_one_annotator_only_is_told(session):
     corpus, folder, *rest = session
     (folder / "r-two.eaf").unlink()
-    made = study.agreement(corpus, folder, *rest, 0.15, 1)
+    made = study.agreement(corpus, folder, *rest, 0.15, 1, 700)
     note = made["annotator_agreement"]["note"].iloc[0]
     assert note.startswith("two, r: ")
     assert made["annotator_offsets"].empty

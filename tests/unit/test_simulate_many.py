@@ -18,6 +18,7 @@ def test_what_is_written_is_read(kind, count, tmp_path, capsys):
     folder = data_folder(corpus, None, tmp_path / "results")
     assert folder == tmp_path / "corpora" / kind / "data"
     check_files(corpus, folder)
+    assert [file for file in corpus.files() if not (folder / file).is_file()] == []
     read = ingest(corpus, folder, corpus.entries)
     assert len(read.recordings) == count
     assert not read.excluded

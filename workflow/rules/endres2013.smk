@@ -7,6 +7,9 @@ from signkin.studies.endres2013.settings import (
     ReadingSettings,
 )
 
+# The longest job of a run, order_choices, stands at the end of a chain of jobs: they go first. A job
+# of binning has one core: threads that share a Python wait for one another longer than they win.
+LONGEST_CHAIN = 20
 ENDRES_EXHIBITS = exhibits(PLAN.papers / "endres2013")
 
 
@@ -21,6 +24,7 @@ rule single_signs:
         binning_left_out="<results>/endres2013/{corpus}/shards/{shard}/not_cut.csv",
     log:
         "<logs>/endres2013/{corpus}/{shard}/single_signs.log",
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("endres2013/single_signs.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
@@ -42,6 +46,7 @@ rule bin_single_signs:
         posteriors="<results>/endres2013/{corpus}/shards/{shard}/posteriors.parquet",
     log:
         "<logs>/endres2013/{corpus}/{shard}/binning.log",
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("endres2013/bin_single_signs.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
@@ -72,6 +77,7 @@ rule endres_tables:
         order_tests="<results>/endres2013/{corpus}/order_tests.csv",
     log:
         "<logs>/endres2013/{corpus}/tables.log",
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("endres2013/tables.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
@@ -126,7 +132,7 @@ rule order_choices:
         caption="<results>/endres2013/{corpus}/order_choices.txt",
     log:
         "<logs>/endres2013/{corpus}/order_choices.log",
-    threads: 2
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("endres2013/open_choices.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
@@ -149,7 +155,7 @@ rule printed_readings:
         readings_ground_truth="<results>/endres2013/{corpus}/readings_ground_truth.csv",
     log:
         "<logs>/endres2013/{corpus}/readings.log",
-    threads: 2
+    priority: LONGEST_CHAIN - 1
     params:
         code=PLAN.digest("endres2013/readings.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),

@@ -46,6 +46,7 @@ rule transitions:
         sign_types="<results>/naert2017/{corpus}/shards/{shard}/sign_types.csv",
         raw_transitions="<results>/naert2017/{corpus}/shards/{shard}/transitions.csv",
         transition_speeds="<results>/naert2017/{corpus}/shards/{shard}/transition_speeds.csv",
+        table1="<results>/naert2017/{corpus}/shards/{shard}/table1.csv",
     log:
         "<logs>/naert2017/{corpus}/{shard}/transitions.log",
     params:
@@ -56,12 +57,51 @@ rule transitions:
         "../scripts/naert2017/transitions.py"
 
 
+rule tag_model:
+    """How manual tags lie about boundaries, learnt from recordings (4.2)."""
+    input:
+        sign_types=of_shards(rules.transitions.output.sign_types),
+        intervals=rules.gather.output.intervals,
+        minima=rules.gather.output.minima,
+    output:
+        model="<results>/naert2017/{corpus}/tag_model.json",
+    log:
+        "<logs>/naert2017/{corpus}/tag_model.log",
+    params:
+        code=PLAN.digest("naert2017/tag_model.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        seed=SETTINGS.seed,
+        settings=TableSettings.of(SETTINGS),
+    script:
+        "../scripts/naert2017/tag_model.py"
+
+
+rule tag_posteriors:
+    """Manual tags as posteriors, per hand (4.2)."""
+    input:
+        model=rules.tag_model.output.model,
+        sign_types=rules.transitions.output.sign_types,
+        intervals=rules.ingest.output.intervals,
+        minima=rules.kinematics.output.minima,
+    output:
+        posteriors="<results>/naert2017/{corpus}/shards/{shard}/boundary_posteriors.parquet",
+    log:
+        "<logs>/naert2017/{corpus}/{shard}/tag_posteriors.log",
+    params:
+        code=PLAN.digest("naert2017/tag_posteriors.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+    script:
+        "../scripts/naert2017/tag_posteriors.py"
+
+
 rule naert_tables:
     """Table 1, Table 2, quality of the refinement, for a whole corpus."""
     input:
         boundaries=of_shards(rules.refine.output.boundaries),
         sign_types=of_shards(rules.transitions.output.sign_types),
         transitions=of_shards(rules.transitions.output.raw_transitions),
+        posteriors=of_shards(rules.tag_posteriors.output.posteriors),
+        table1=of_shards(rules.transitions.output.table1),
         about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         minima=rules.gather.output.minima,
@@ -116,6 +156,7 @@ rule naert_figures:
         code=PLAN.digest("naert2017/figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         groups=("figures",),
+        seed=SETTINGS.seed,
         settings=FigureSettings.of(SETTINGS),
     script:
         "../scripts/naert2017/figures.py"
@@ -247,6 +288,7 @@ rule synthesis_figures:
         code=PLAN.digest("naert2017/synthesis_figures.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         groups=SYNTHESIS_FIGURES,
+        seed=SETTINGS.seed,
         settings=SYNTHESIS,
     script:
         "../scripts/naert2017/synthesis_figures.py"
@@ -277,6 +319,7 @@ if PLAN.with_found_signs:
             code=PLAN.digest("naert2017/synthesis_figures.py"),
             corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
             groups=("composition",),
+            seed=SETTINGS.seed,
             settings=SYNTHESIS,
         script:
             "../scripts/naert2017/synthesis_figures.py"
@@ -303,6 +346,7 @@ rule utterances:
         code=PLAN.digest("naert2017/utterances.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         data=lambda w: str(PLAN.folders[w.corpus]),
+        seed=SETTINGS.seed,
         settings=SYNTHESIS,
     script:
         "../scripts/naert2017/utterances.py"
@@ -389,6 +433,7 @@ rule claim_choices:
     """Claims of Naert et al. under every combination of open choices."""
     input:
         recordings=of_shards(rules.ingest.output.recordings),
+        about=rules.gather.output.recordings,
         intervals=rules.gather.output.intervals,
         excluded=rules.gather.output.excluded,
         transitions=rules.naert_tables.output.transitions,

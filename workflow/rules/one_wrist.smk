@@ -57,6 +57,7 @@ rule one_wrist:
         code=PLAN.digest("one_wrist/analysis.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
         seed=SETTINGS.seed,
+        samples=SETTINGS.samples,
         hit_window_s=SETTINGS.binning.hit_window_s,
         continuous=SETTINGS.binning.continuous,
     script:

@@ -9,9 +9,10 @@ import numpy as np
 
 from signkin.binning import segments
 from signkin.binning.fitting import EVERY_COUNT_UP_TO, fit
-from signkin.binning.hit_rate import chance_line, match
+from signkin.binning.hit_rate import chance_line, hit_rate, match
 from signkin.binning.jit import JIT_OFF
 from signkin.binning.prior import Prior
+from signkin.binning.shifted import shifted_hits
 from signkin.binning.stale import forget_stale
 
 # The files with compiled functions, each of which may take in code of the others.
@@ -21,12 +22,14 @@ KERNELS = (
     "counts",
     "evidence_layout",
     "exact",
-    "hit_rate",
     "jit",
     "lanes",
     "lanes_llvm",
     "lanes_numpy",
     "log_domain",
+    "maxima",
+    "pairs",
+    "prices",
     "segmentation",
     "segments",
     "sum_product",
@@ -58,6 +61,11 @@ def compile_kernels() -> None:
     for bins, longest in ((12, None), (EVERY_COUNT_UP_TO + 1, None), (EVERY_COUNT_UP_TO + 1, 20)):
         x = rng.normal(size=(bins, 2))
         for far in (0.0, 1e9):  # with 16 digits, and with 32
-            fit(x + far, (0, 1), prior, max_segment_bins=longest).map_trajectory(1)
+            found = fit(x + far, (0, 1), prior, max_segment_bins=longest)
+            found.map_trajectory(1)
+            found.boundaries(1)
+    fit(rng.normal(size=(EVERY_COUNT_UP_TO + 1, 2)), (0,), prior, max_segment_bins=9, whole_up_to=1)
     match([0.1], [0.1])
+    hit_rate([0.1], [0.1], duration_s=1.0)
+    shifted_hits([0.1], [0.1], 0.1, duration_s=1.0)
     chance_line([[0.5]], [1.0], 0, [1.0], draws=1)

@@ -15,6 +15,7 @@ from signkin.binning.evidence import Engine
 from signkin.binning.posterior import Posterior
 from signkin.binning.prior import HIGHEST_ORDER, Prior
 from signkin.binning.segmentation_prior import log_uniform
+from signkin.binning.stretches import Stretches, in_stretches
 from signkin.errors import SignkinError, listed
 from signkin.masked import unmasked
 
@@ -22,6 +23,9 @@ Floats = NDArray[np.float64]
 
 # Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
 EVERY_COUNT_UP_TO = 256
+# Above so many bins (200 s of 20 ms) a series with a longest segment is binned in stretches.
+WHOLE_UP_TO = 10_000
+LEAST_STRETCHES = 8  # of the longest segment
 
 
 def fit(
@@ -34,6 +38,7 @@ def fit(
     expectations: bool | Sequence[int] = True,
     name: str = "trajectory",
     sample_at: float = 0.5,
+    whole_up_to: int = WHOLE_UP_TO,
 ) -> Posterior:
     """Return the posterior of one trajectory for all orders at once.
 
@@ -47,6 +52,9 @@ def fit(
     is left out. A count takes 128 bytes of memory a bin.
     max_segment_bins: the longest segment; segmentations with longer ones have no prior
     probability, the others share it evenly.
+    whole_up_to: a series of more bins, and with a longest segment of no more than an eighth of it,
+    is gone through in stretches, in little memory (stretches.py): what differs is less than 1e-6
+    in the log evidence, and elsewhere less than `cut_mass`, which then bounds it.
     expectations: whether to work out expected trajectories and noise too, or of which orders.
 
     Raises SignkinError that names the trajectory for gaps, too few bins, impossible orders.
@@ -66,13 +74,17 @@ def fit(
     except SignkinError as error:
         raise error.at(file=name) from error
     every = max_count is not None or bins <= EVERY_COUNT_UP_TO
-    if every:
+    expected = _expected(expectations, wanted, name)
+    mean = noise = None
+    if not every and bins > whole_up_to and longest <= bins // LEAST_STRETCHES:
+        series = Stretches.of(x, prior, longest, max(wanted) + 1, dt_s)
+        cut = in_stretches(series, wanted, expected)
+        found, mean, noise = cut.found, cut.mean, cut.noise
+    elif every:
         found = counted(engine.by_segment(), wanted, bins, longest, max_count)
     else:
         found = in_band(engine.by_order(), wanted, bins, longest)
-    expected = _expected(expectations, wanted, name)
-    mean = noise = None
-    if expected:
+    if expected and mean is None:
         mean, noise = engine.expect(found.segments, expected)
     return Posterior(
         x=x,

@@ -7,13 +7,13 @@ of them with events thrown at random.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signkin.binning.jit import kernel
+from signkin.binning.pairs import best_pairs, count_pairs, hits_of_many
 from signkin.errors import SignkinError
 from signkin.masked import unmasked
 
@@ -25,6 +25,7 @@ WINDOW_S = 0.09  # section 3.1: "an accuracy window of 90 ms", read as a half-wi
 TOLERANCE_S = 1e-6
 INTERVAL = (2.5, 97.5)  # percentiles of all intervals here
 NO_TRUTH = "no true boundary"
+Weights = Callable[[int, int], NDArray[np.int64]]  # of (trajectories, draws)
 
 
 # --- one trajectory --------------------------------------------------------------------------
@@ -42,70 +43,15 @@ def match(
     pairing keeps the order of both sides, so dynamic programming finds it.)
     """
     predicted, truth = _times(predicted_s, "predicted_s"), _times(truth_s, "truth_s")
-    if not (np.isfinite(window_s) and window_s >= 0):
-        raise _error(f"a window of {window_s:g} s", "seconds from 0")
+    _check_window(window_s)
     by_p, by_t = np.argsort(predicted, kind="stable"), np.argsort(truth, kind="stable")
-    p, t = _pairs(predicted[by_p], truth[by_t], window_s + TOLERANCE_S)
+    p, t = best_pairs(predicted[by_p], truth[by_t], window_s + TOLERANCE_S)
     return by_p[p], by_t[t]
 
 
-@kernel
-def _pairs(p: Floats, t: Floats, most: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the best order-keeping pairing of two sorted arrays."""
-    n, m = len(p), len(t)
-    count = np.zeros((n + 1, m + 1), dtype=np.int64)  # most pairs among the first i and j ...
-    total = np.zeros((n + 1, m + 1))  # ... and their least total distance
-    for i in range(1, n + 1):
-        for j in range(1, m + 1):
-            c, d = count[i - 1, j], total[i - 1, j]
-            if count[i, j - 1] > c or (count[i, j - 1] == c and total[i, j - 1] < d):
-                c, d = count[i, j - 1], total[i, j - 1]
-            apart = abs(p[i - 1] - t[j - 1])
-            if apart <= most:
-                c2, d2 = count[i - 1, j - 1] + 1, total[i - 1, j - 1] + apart
-                if c2 > c or (c2 == c and d2 < d):
-                    c, d = c2, d2
-            count[i, j], total[i, j] = c, d
-    size = count[n, m]
-    first, second = np.empty(size, dtype=np.int64), np.empty(size, dtype=np.int64)
-    i, j, k = n, m, size
-    while k > 0:
-        if count[i - 1, j] == k and total[i - 1, j] == total[i, j]:
-            i -= 1
-        elif count[i, j - 1] == k and total[i, j - 1] == total[i, j]:
-            j -= 1
-        else:
-            i, j, k = i - 1, j - 1, k - 1
-            first[k], second[k] = i, j
-    return first, second
-
-
-@kernel
-def _hits(
-    times: Floats, events: NDArray[np.int64], truth: Floats, true: NDArray[np.int64], most: float
-) -> NDArray[np.int64]:
-    """Return how many pairs `_pairs` would make of each of many trajectories.
-
-    times, truth: those of all trajectories, one after the other. Only the number of pairs is
-    wanted, and to give each boundary the earliest event still free makes the most.
-    """
-    hits = np.zeros(len(events), dtype=np.int64)
-    a = b = 0
-    for i in range(len(events)):
-        a_end, b_end = a + events[i], b + true[i]
-        ordered = np.sort(times[a:a_end])
-        p = 0
-        while p < len(ordered) and b < b_end:
-            if abs(ordered[p] - truth[b]) <= most:
-                hits[i] += 1
-                p += 1
-                b += 1
-            elif ordered[p] < truth[b]:
-                p += 1
-            else:
-                b += 1
-        a, b = a_end, b_end
-    return hits
+def _check_window(window_s: float) -> None:
+    if not (np.isfinite(window_s) and window_s >= 0):
+        raise _error(f"a window of {window_s:g} s", "seconds from 0")
 
 
 @dataclass(frozen=True)
@@ -148,7 +94,8 @@ def hit_rate(
     if not (np.isfinite(duration_s) and duration_s > 0):
         raise _error(f"a duration of {duration_s:g} s", "seconds above 0")
     predicted, truth = _times(predicted_s, "predicted_s"), _times(truth_s, "truth_s")
-    hits = len(match(predicted, truth, window_s)[0])
+    _check_window(window_s)
+    hits = int(count_pairs(np.array(predicted), np.sort(truth), window_s + TOLERANCE_S))
     return HitRate(
         hits=hits,
         misses=len(truth) - hits,
@@ -211,26 +158,26 @@ class Hpfpps:
     note: str = ""
 
 
-def hpfpps(rates: Sequence[HitRate], rng: np.random.Generator | int, draws: int = 2000) -> Hpfpps:
+def hpfpps(
+    rates: Sequence[HitRate], rng: np.random.Generator | int | Weights, draws: int = 2000
+) -> Hpfpps:  # fmt: skip
     """Return eq. 17 of a group: pooled hit rate over pooled false positives a second.
 
     The mean of the trajectories' own ratios does not exist once one has no false positive.
     Standard error and interval are from a bootstrap over trajectories.
     Trajectories without a true boundary have no hit rate; they are left out and counted.
+    rng: a random generator, a seed, or what gives the weights of n trajectories (n, draws).
     """
     if draws < 2:
         raise _error(f"{draws} bootstrap draws", "at least 2")
-    used = [r for r in rates if r.hits + r.misses]
-    without = len(rates) - len(used)
-    if not used:
+    counts = _counts(rates)
+    without = len(rates) - len(counts)
+    if not len(counts):
         nan = float("nan")
         return Hpfpps(nan, nan, nan, nan, draws, 0, len(rates), without, NO_TRUTH)
-    counts = np.array(
-        [(r.hits, r.hits + r.misses, r.false_positives, r.duration_s) for r in used], dtype=float
-    )
     value = float(_pooled(counts.sum(axis=0)))
-    generator = np.random.default_rng(rng)
-    weights = generator.multinomial(len(used), np.full(len(used), 1 / len(used)), size=draws)
+    n = len(counts)
+    weights = rng(n, draws) if callable(rng) else bootstrap_weights(rng, n, draws)
     drawn = _pooled(weights @ counts)
     finite = drawn[np.isfinite(drawn)]
     there = np.sort(drawn[~np.isnan(drawn)])
@@ -255,6 +202,29 @@ def hpfpps(rates: Sequence[HitRate], rng: np.random.Generator | int, draws: int 
         n=len(rates),
         without_truth=without,
         note=note,
+    )
+
+
+def bootstrap_weights(rng: np.random.Generator | int, n: int, draws: int) -> NDArray[np.int64]:
+    """Draw how often each of n trajectories stands in each bootstrap sample, (draws, n)."""
+    return np.random.default_rng(rng).multinomial(n, np.full(n, 1 / n), size=draws)
+
+
+def pooled_hpfpps(rates: Sequence[HitRate]) -> float:
+    """Return eq. 17 of a group alone, as `hpfpps` does, without its bootstrap."""
+    counts = _counts(rates)
+    return float(_pooled(counts.sum(axis=0))) if len(counts) else float("nan")
+
+
+def _counts(rates: Sequence[HitRate]) -> Floats:
+    """Return hits, true boundaries, false positives, seconds, (n, 4), where there is truth."""
+    return np.array(
+        [
+            (r.hits, r.hits + r.misses, r.false_positives, r.duration_s)
+            for r in rates
+            if r.hits + r.misses
+        ],
+        dtype=float,
     )
 
 
@@ -430,7 +400,7 @@ def chance_line(
     for r, events_per_s in enumerate(rates):
         events = generator.poisson(events_per_s * durations, size=(draws, len(durations))).ravel()
         times = generator.uniform(size=events.sum()) * np.repeat(np.tile(durations, draws), events)
-        hits = _hits(times, events, *repeated, window_s + TOLERANCE_S).reshape(draws, -1)
+        hits = hits_of_many(times, events, *repeated, window_s + TOLERANCE_S).reshape(draws, -1)
         hit[r] = np.mean(hits[:, there] / true[there], axis=1)
         false[r] = np.mean((events.reshape(draws, -1) - hits) / durations, axis=1)
     low, high = np.percentile(hit, INTERVAL, axis=1)

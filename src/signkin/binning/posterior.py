@@ -20,14 +20,13 @@ from numpy.typing import NDArray
 
 from signkin.binning import segmentation
 from signkin.binning.evidence import Engine
+from signkin.binning.maxima import greedy_maxima
 from signkin.binning.prior import Prior
 from signkin.errors import SignkinError, listed
 
 Floats = NDArray[np.float64]
 
-CLEARANCE_BINS = 3
 MOST_MISFIT = 3.0  # SDs of the prior's noise: more is no noise of the prior's
-DIGITS_2 = 30  # binary digits, nine decimal ones, to which probabilities are compared
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -225,25 +224,3 @@ def boundary_times(
     a bin is a frame, and frames stand at i / rate, sample_at is 0.
     """
     return np.asarray((np.asarray(ends) + (0.5 + sample_at)) * bin_s, dtype=float)
-
-
-def greedy_maxima(probability: Floats, count: int) -> NDArray[np.int64]:
-    """Return the places of up to `count` largest local maxima, 3 bins cleared around each.
-
-    Values that agree to 9 digits are taken for the same, and the first goes first: where every
-    bin is a boundary, the order would otherwise be that of rounding.
-    """
-    given = np.asarray(probability, dtype=float)
-    _, exponent = np.frexp(given)
-    left = np.ldexp(np.round(np.ldexp(given, DIGITS_2 - exponent)), exponent - DIGITS_2)
-    padded = np.concatenate([[-np.inf], left, [-np.inf]])
-    peak = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:]) & (left > 0)
-    free = np.where(peak, left, -np.inf)
-    found: list[int] = []
-    while len(found) < count:
-        best = int(np.argmax(free)) if len(free) else 0
-        if not len(free) or not np.isfinite(free[best]):
-            break
-        found.append(best)
-        free[max(0, best - CLEARANCE_BINS) : best + CLEARANCE_BINS + 1] = -np.inf
-    return np.array(sorted(found), dtype=np.int64)

@@ -86,6 +86,8 @@ class Prior:
 
     def with_noise(self, share: float) -> Prior:
         """Return the prior that expects `share` times the noise of this one."""
+        if share == 1:
+            return self
         # Read literally, the greater the variances the less noise is expected.
         factor = 1 / share if self.scale == "literal" else share
         deviations = np.asarray(self.noise_sd) * factor
@@ -97,7 +99,7 @@ class Prior:
 
         From the expected precision, dof V: noise_sd itself with scale `expected`.
         """
-        return np.asarray(np.sqrt(self.inverse_scale(dimensions) / self.degrees(dimensions)))
+        return _expected_noise(self, dimensions)
 
     def degrees(self, dimensions: int) -> float:
         """Return the degrees of freedom for data of so many dimensions."""
@@ -108,13 +110,7 @@ class Prior:
 
     def inverse_scale(self, dimensions: int) -> NDArray[np.float64]:
         """Return the diagonal of V^-1, (L,)."""
-        deviations = np.atleast_1d(np.asarray(self.noise_sd, dtype=float))
-        if len(deviations) not in (1, dimensions):
-            raise _error("noise_sd", self.noise_sd, f"one value, or {dimensions}")
-        if self.length_unit is not None:  # V = sd^2 in that unit, so V^-1 = unit^4 / sd^2
-            return np.asarray(np.broadcast_to((self.length_unit**2 / deviations) ** 2, dimensions))
-        factor = self.degrees(dimensions) if self.scale == "expected" else 1.0
-        return np.asarray(np.broadcast_to(factor * deviations**2, (dimensions,)), dtype=float)
+        return _inverse_scale(self, dimensions)
 
     def step(self, bins: int, dt_s: float | None) -> float:
         """Return the polynomials' time of one bin, for a trajectory of so many bins."""
@@ -138,6 +134,26 @@ def _numbers(place: str, found: object, expected: str) -> NDArray[np.float64]:
 
 def _error(place: str, found: object, expected: str) -> SignkinError:
     return SignkinError(f"{place} is {found}", place="prior", expected=expected)
+
+
+@lru_cache(maxsize=256)
+def _inverse_scale(prior: Prior, dimensions: int) -> NDArray[np.float64]:
+    """Return the diagonal of V^-1, not to be written to: each fit asks for it several times."""
+    deviations = np.atleast_1d(np.asarray(prior.noise_sd, dtype=float))
+    if len(deviations) not in (1, dimensions):
+        raise _error("noise_sd", prior.noise_sd, f"one value, or {dimensions}")
+    if prior.length_unit is not None:  # V = sd^2 in that unit, so V^-1 = unit^4 / sd^2
+        return np.asarray(np.broadcast_to((prior.length_unit**2 / deviations) ** 2, dimensions))
+    factor = prior.degrees(dimensions) if prior.scale == "expected" else 1.0
+    return np.asarray(np.broadcast_to(factor * deviations**2, (dimensions,)), dtype=float)
+
+
+@lru_cache(maxsize=256)
+def _expected_noise(prior: Prior, dimensions: int) -> NDArray[np.float64]:
+    """Return the noise that a segment is expected to have, not to be written to."""
+    noise = np.sqrt(prior.inverse_scale(dimensions) / prior.degrees(dimensions))
+    noise.flags.writeable = False
+    return np.asarray(noise)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,8 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signkin.binning.hit_rate import TOLERANCE_S, Floats, _error, _hits, _times
+from signkin.binning.hit_rate import TOLERANCE_S, Floats, _error, _times
+from signkin.binning.pairs import shifted_counts
 
 STEPS = 200  # shifts, evenly spread over the duration
 
@@ -53,12 +54,12 @@ def hits_of_shifts(
     predicted: Floats, truth: Floats, window_s: float, duration_s: float, shifts_s: Floats
 ) -> Floats:
     """Return the hits of each of many shifts. truth: in order."""
-    moved = np.mod(predicted + shifts_s[:, None], duration_s)
-    events, true = (np.full(len(shifts_s), len(x), dtype=np.int64) for x in (predicted, truth))
-    many = np.tile(truth, len(shifts_s))
-    return np.asarray(
-        _hits(np.ascontiguousarray(moved.ravel()), events, many, true, window_s + TOLERANCE_S),
-        dtype=float,
+    return shifted_counts(
+        np.sort(predicted),
+        np.array(truth),
+        float(window_s) + TOLERANCE_S,
+        float(duration_s),
+        np.array(shifts_s),
     )
 
 

@@ -20,6 +20,8 @@ from signkin.errors import SignkinError
 
 TERMS = ("constant", "geodesic", "euclidean")
 LINEAR_TERMS = ("constant", "mean_distance")
+MOST_LEFT_OUT = 1000  # groups that are left out one by one
+FOLDS = 100  # of more groups
 
 Array = NDArray[np.float64]
 
@@ -303,6 +305,20 @@ class MeanDuration(DurationModel):
         """Return the mean, once for each transition, (N,)."""
         _refuse_unfitted(np.array([self.mean_s]), "MEAN")
         return np.full(len(transitions), self.mean_s)
+
+
+def folded(groups: Sequence[Hashable]) -> tuple[Sequence[Hashable], str]:
+    """Return groups to leave out in a time that data do not square, and what to tell of it.
+
+    Up to MOST_LEFT_OUT of them stay as they are. More are put into FOLDS folds in turn, by where
+    they first occur, and a fold is left out as a whole: a model then learns from 99 % of the data.
+    """
+    labels = list(dict.fromkeys(groups))
+    if len(labels) <= MOST_LEFT_OUT:
+        return groups, ""
+    fold = {label: i % FOLDS for i, label in enumerate(labels)}
+    told = f"{FOLDS} folds: {len(labels)} are more than {MOST_LEFT_OUT} to leave out one by one"
+    return [fold[label] for label in groups], told
 
 
 def predict_left_out(

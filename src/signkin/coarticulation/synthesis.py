@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,12 +42,12 @@ class Sign:
     start_s: float
     end_s: float
 
-    @property
+    @cached_property
     def first(self) -> int:
         """Frame of the first posture."""
         return self.recording.frame_at(self.start_s)
 
-    @property
+    @cached_property
     def last(self) -> int:
         """Frame of the last posture."""
         return max(self.first, self.recording.frame_at(self.end_s))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from signkin.figures.style import ACCENT, NEUTRAL, PALE, RIGHT
 
+UNJUDGED = "white: not to be judged"  # under a reading
 CLOUD = 150  # points of one panel that are saved as a picture, not one by one
 
 
@@ -45,7 +46,9 @@ def plot_estimates(specs: pd.DataFrame, label: str, zero: bool = False, *, ax: A
 
 
 def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> Axes:
-    """Draw a row a claim and a column a reading: filled where it holds, open where it fails.
+    """Draw a row a claim and a column a reading: dark where it holds, pale where it fails.
+
+    What is left white has nothing to judge it by; the legend says so where there is any.
 
     readings: a column a claim, `yes`, `no` or empty where there is nothing to judge it by.
     """
@@ -54,9 +57,11 @@ def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> A
         for value, colour in (("yes", RIGHT), ("no", PALE)):
             here = at[(readings[claim] == value).to_numpy()]
             if len(here):
-                ax.add_patch(_bars(here, y, colour))
+                ax.add_artist(_bars(here, y, colour))
     for value, colour in (("holds", RIGHT), ("fails", PALE)):
         ax.plot([], [], marker="s", ls="none", color=colour, label=value)
+    if not readings[list(claims)].isin(["yes", "no"]).all(axis=None):
+        ax.plot([], [], marker="s", ls="none", mfc="white", mec=NEUTRAL, mew=0.7, label=UNJUDGED)
     ax.set_yticks(np.arange(len(claims)), claims)
     ax.set(ylim=(len(claims) - 0.5, -0.5), xlim=(-1, len(readings)))
     ax.tick_params(axis="y", length=0)
@@ -65,7 +70,10 @@ def plot_claims(readings: pd.DataFrame, claims: Sequence[str], *, ax: Axes) -> A
 
 
 def _bars(at: NDArray[np.intp], y: int, colour: str) -> PathPatch:
-    """Return bars at places, as one shape; each keeps to its place, neighbours are one bar."""
+    """Return bars at places, as one shape; each keeps to its place, neighbours are one bar.
+
+    To be added as an artist: `add_patch` looks for the limits of each, and limits are set here.
+    """
     breaks = np.flatnonzero(np.diff(at) > 1)
     left = np.append(at[0], at[breaks + 1]) - 0.5
     right = np.append(at[breaks], at[-1]) + 0.5
@@ -94,7 +102,7 @@ def plot_choices(specs: pd.DataFrame, levels: Mapping[str, Sequence[str]], *, ax
         at = np.flatnonzero(specs[choice].to_numpy() == value)
         for part, colour in ((holds[at], RIGHT), (~holds[at], NEUTRAL)):
             if part.any():
-                ax.add_patch(_bars(at[part], y, colour))
+                ax.add_artist(_bars(at[part], y, colour))
     for edge in edges[1:]:
         ax.axhline(edge - 0.5, color=PALE, lw=0.6)
     ax.set_yticks(np.arange(len(rows)), labels)

@@ -11,6 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
+from signkin.figures.fonts import cut_fonts
+
 # As in the papers: the right hand blue, the left one red, the annotator green.
 RIGHT = "#1f5fa8"
 LEFT = "#c8322b"
@@ -49,7 +51,9 @@ def save(figure: Figure, svg: str | Path, pdf: str | Path) -> None:
     settle(figure)
     with mpl.rc_context(NO_LAYOUT):  # saving sets the layout engine that there was, or the style's
         figure.savefig(svg, metadata={"Date": None, "Creator": "signkin"})
-        figure.savefig(pdf, metadata={"CreationDate": None, "Creator": "signkin", "Producer": None})
+        told = {"CreationDate": None, "Creator": "signkin", "Producer": None}
+        with cut_fonts():
+            figure.savefig(pdf, metadata=told)
     plt.close(figure)
 
 

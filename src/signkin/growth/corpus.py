@@ -17,7 +17,7 @@ import pandas as pd
 import yaml
 
 from signkin import seeds
-from signkin.corpus import load_corpus
+from signkin.corpus import Entry, load_corpus
 from signkin.errors import SignkinError
 from signkin.io.wide_csv import write_wide_csv
 from signkin.simulate import isl, lsf
@@ -25,6 +25,7 @@ from signkin.simulate import isl, lsf
 AT_ONCE = 16  # a design has up to so many utterances, each a recording of its own
 SIGNERS = 8  # of tagged signing: one a design, in turn
 TRIES = 20  # a design may ask for a posture that no body has
+SHARD = 100  # recordings that share a job: at 0.4 s each, a job is far from a minute
 EUCLIDEAN_UNIT_M = 0.1  # of the printed surface
 
 
@@ -64,7 +65,8 @@ def write_corpus(
 def _tagged(
     data: Path, model: Path, recordings: int, seed: int, home: Path
 ) -> Iterator[dict[str, Any]]:
-    lexicon = load_corpus(model).lexicon
+    described = load_corpus(model)
+    lexicon = described.lexicon
     text: dict[str, Any] = {"dtype": str, "keep_default_na": False}
     table2 = pd.read_csv(home / "papers/naert2017/table2.csv", **text)
     constants = pd.read_csv(home / "papers/naert2017/constants.csv", **text)
@@ -93,12 +95,21 @@ def _tagged(
                 break  # a design of fewer utterances
             lsf.write_motion(recording, data / f"{recording.name}.bvh")
             lsf.write_tags(recording, data / f"{recording.name}.eaf")
-            yield {
+            row = {
                 "recording": recording.name,
                 "signer": f"simulated-{design % SIGNERS + 1}",
                 "motion": f"{recording.name}.bvh",
                 "annotation": f"{recording.name}.eaf",
             }
+            entry = Entry(
+                row["recording"], row["signer"], row["motion"], row["annotation"], part="", line=0
+            )
+            rng = seeds.stream(seed, "tagged", "second tagger", recording.name)
+            for annotator in described.annotators:
+                lsf.write_second_tags(
+                    recording, data / described.annotator_file(entry, annotator), rng
+                )
+            yield row
             first += 1
         design += 1
 
@@ -140,5 +151,6 @@ def _configure(folder: Path, kind: str, home: Path) -> None:
     if not path.exists():
         settings = yaml.safe_load((home / "config.yaml").read_text(encoding="utf-8"))
         settings["corpora"] = [kind]
+        settings["recordings_per_job"] = SHARD
         settings["synthesis"]["utterances"] = []
         path.write_text(yaml.safe_dump(settings, sort_keys=False), encoding="utf-8")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
 import signkin
+from signkin.audit.findings import INCONSISTENT
 from signkin.audit.ledger import PRINT, SIMULATED
 from signkin.audit.paper import Claim, Curve, Paper
 from signkin.pages import readings
@@ -113,13 +115,11 @@ def _overview(papers: Sequence[Paper], claims: pd.DataFrame, folder: Path) -> Se
         wide = wide.sort_values("id", key=lambda s, order=order: s.map(order))
         columns = {"id": ("claim", ""), "claim": ("what is claimed", ""), "location": ("place", "")}
         columns |= {e: (_heading(e, kinds[e]), "verdict") for e in shown}
-        counts = rows[rows["evidence"] == PRINT]["verdict"].value_counts()
-        told = ", ".join(f"{counts[v]} {v}" for v in VERDICTS if v in counts)
         views.append(
             TableView(
                 label=paper.title,
                 title="all claims",
-                caption=f"On the printed numbers: {told}.",
+                caption=f"On the printed numbers: {_told(rows)}.",
                 frame=wide,
                 columns=columns,
                 file=folder / "claims.csv",
@@ -147,6 +147,7 @@ def _counts(claims: pd.DataFrame, file: Path) -> TableView:
         frame=pd.DataFrame(rows),
         columns=columns,
         file=file,
+        folded=True,
     )
 
 
@@ -155,10 +156,16 @@ def _claims(paper: Paper, claims: pd.DataFrame, checks: pd.DataFrame, folder: Pa
     of_checks = checks[checks["paper"] == paper.folder.name]
     tested = of_claims[of_claims["verdict"] != NOTHING]["evidence"].unique()
     views: list[TableView | FigureView] = []
-    for claim in paper.claims:
+    accused = of_claims[(of_claims["evidence"] == PRINT) & (of_claims["verdict"] == INCONSISTENT)]
+    bad = set(accused["id"])
+    for claim in sorted(paper.claims, key=lambda claim: claim.id not in bad):
         found = of_checks[of_checks["id"] == claim.id]
-        views.append(_claim(claim, of_claims[of_claims["id"] == claim.id], found, tested, folder))
-        views += _rows(claim, found, folder)
+        verdicts = of_claims[of_claims["id"] == claim.id]
+        view = _claim(claim, verdicts, found, tested, folder)
+        rows = tuple(_rows(claim, found, folder))
+        folded = replace(view, folded=True, opened=claim.id in bad, verdicts=brief(verdicts))
+        views.append(replace(folded, inner=rows))
+    first = " What is inconsistent stands first, and open." if bad else ""
     return Section(
         paper.folder.name,
         f"{paper.title}, claim by claim",
@@ -166,9 +173,31 @@ def _claims(paper: Paper, claims: pd.DataFrame, checks: pd.DataFrame, folder: Pa
             "For each claim its checks: how the claim is read, the number recomputed with what "
             "rounding allows (on corpora: 95 % by bootstrap, where it is an estimate), and why the "
             "finding is what it is.",
+            f"On the printed numbers: {_told(of_claims)}.{first}",
         ),
         exhibits=views,
     )
+
+
+def _told(claims: pd.DataFrame) -> str:
+    """Return how many of a paper's claims have which verdict on print."""
+    counts = claims[claims["evidence"] == PRINT]["verdict"].value_counts()
+    return ", ".join(f"{counts[v]} {v}" for v in VERDICTS if v in counts)
+
+
+def brief(verdicts: pd.DataFrame) -> list[tuple[str, str]]:
+    """Return a claim's verdicts, each with the evidence that it was come to on.
+
+    verdicts: the claim's rows of the table `claims`. What is not testable is told where nothing is.
+    """
+    decided = verdicts[verdicts["verdict"] != NOTHING]
+    if decided.empty:
+        return [("", NOTHING)]
+    print_first = decided.sort_values("evidence", key=lambda e: e != PRINT, kind="stable")
+    return [
+        (", ".join(rows["evidence"]), str(verdict))
+        for verdict, rows in print_first.groupby("verdict", sort=False)
+    ]
 
 
 FEW = 3  # findings of one check that are told one by one
@@ -313,28 +342,8 @@ def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]], kept: Iterable[FigureV
                 f"{told}.",
                 svg=base.with_suffix(".svg"),
                 files=[base.with_suffix(s) for s in (".svg", ".pdf", ".csv")],
-            )
-        )
-        views.append(
-            TableView(
-                label="",
-                title=f"{curve.claim}: by choice",
-                caption="In which share of the specifications with a level the claim holds. The "
-                "last column: how much of the variance of holds (yes or no) lies between the "
-                "levels of a choice; the largest decides.",
-                frame=levels,
-                columns={
-                    "corpus": ("corpus", ""),
-                    "choice": ("choice", ""),
-                    "level": ("level", ""),
-                    "specifications": ("specifications", "d"),
-                    "holding": ("holding", "d"),
-                    "share": ("share", ".2f"),
-                    "median_estimate": ("median estimate", ".3g"),
-                    "share_decided": ("decides", ".2f"),
-                },
-                file=levels_file,
-                most=len(whole),
+                folded=True,
+                inner=(_by_choice(curve, levels, levels_file, len(whole)),),
             )
         )
     return Section(
@@ -346,4 +355,27 @@ def _rest_on(curves: Sequence[tuple[Paper, Curve, Path]], kept: Iterable[FigureV
             "hold, and which choice decides?",
         ),
         exhibits=views,
+    )
+
+
+def _by_choice(curve: Curve, levels: pd.DataFrame, file: Path, most: int) -> TableView:
+    return TableView(
+        label="",
+        title=f"{curve.claim}: by choice",
+        caption="In which share of the specifications with a level the claim holds. The "
+        "last column: how much of the variance of holds (yes or no) lies between the "
+        "levels of a choice; the largest decides.",
+        frame=levels,
+        columns={
+            "corpus": ("corpus", ""),
+            "choice": ("choice", ""),
+            "level": ("level", ""),
+            "specifications": ("specifications", "d"),
+            "holding": ("holding", "d"),
+            "share": ("share", ".2f"),
+            "median_estimate": ("median estimate", ".3g"),
+            "share_decided": ("decides", ".2f"),
+        },
+        file=file,
+        most=most,
     )

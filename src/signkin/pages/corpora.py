@@ -11,7 +11,7 @@ def sign_columns(corpus: Corpus) -> dict[str, tuple[str, str]]:
     """Return the columns of a table of recordings that tell its signs."""
     if corpus.single_signs:
         return {"sign": ("sign", ""), "repetition": ("repetition", "d")}
-    return {"signs": ("signs", "d")}
+    return {"signs": ("signs", "d")} if corpus.tagged else {}
 
 
 def origin(corpus: Corpus) -> str:

@@ -64,7 +64,7 @@ def _oddities(frame: pd.DataFrame, about: pd.DataFrame, plausibility: pd.DataFra
     out: dict[str, list[tuple[int, str]]] = {name: [] for name in frame["recording"]}
     for row in plausibility[plausibility["verdict"] == "implausible"].itertuples():
         if row.recording in out:
-            told = f"{row.check} {row.value:.3g} {row.unit} (plausible {row.low:g} to {row.high:g})"
+            told = f"{row.check}: {_beside(row)} {row.unit} (plausible {row.low:g} to {row.high:g})"
             out[row.recording].append((1, told))
     for row in frame.itertuples():
         if row.gap_share > MUCH_MISSING:
@@ -94,6 +94,15 @@ def _oddities(frame: pd.DataFrame, about: pd.DataFrame, plausibility: pd.DataFra
             word = "longer" if side > 0 else "shorter"
             out[name].append((2, told.format(word=word, value=value)))
     return out
+
+
+def _beside(row: Any) -> str:
+    """Return an implausible value with so many digits that it does not look plausible."""
+    for digits in range(3, 8):
+        told = f"{row.value:.{digits}g}"
+        if not row.low <= float(told) <= row.high:
+            return told
+    return f"{row.value:g}"
 
 
 def todo_of(

@@ -249,8 +249,10 @@ def _short(owner: Owner) -> Section:
     grave = int((owner.todo["rank"] == 1).sum())
     text.append(
         f"{counted_words(many, 'thing', 'things')} to look at; "
-        + (f"because of {grave} of them results may be wrong." if grave
-           else "none makes results wrong.")
+        + ("none makes results wrong." if not grave
+           else "each may make results wrong." if grave == many > 1
+           else "it may make results wrong." if many == 1
+           else f"because of {grave} of them results may be wrong.")
         if many else "Nothing in it looks odd."
     )  # fmt: skip
     return Section(

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
 S3 = ".3f"
 DIGITS = ".3g"  # p-values stand among the rows
-TOLD = ("boundary F1", "boundary precision", "boundary hit rate", "median offset, absolute",
-        "frame F1", "IoU", "Cohen's kappa", "covering", "mF1B", "mF1S")  # fmt: skip
+SHOWN = ("boundary F1", "mF1S")  # of the scores of every method; the file has the others
 CHANCE = {
     "value": ("score", S3),
     "unit": ("unit", ""),
@@ -108,18 +107,43 @@ def _durations(owner: Owner, title: str) -> Iterator[View]:
 def _scores(owner: Owner, title: str) -> Iterator[View]:
     path = owner.sources.results / "endres2013" / owner.name / "segmentation_scores.csv"
     frame = read_table(path, "segmentation_scores")
+    boundary, segment = (_of_measure(frame, measure) for measure in SHOWN)
+    near = ", ".join(of.split(", ")[-1] for of in boundary["of"].dropna().unique() if of)
+    rows = boundary.merge(segment, on=["hand", "method"], how="left",
+                          suffixes=("", "_segment"))  # fmt: skip
     yield TableView(
         label="",
         title=title,
-        caption="Manual tags would have the score 1. Refined tags are made of them, so theirs tell "
-        "how far they were moved; minima and binning do not know the tags. Chance: the same "
-        "lengths and gaps in another order within each recording, mean and 95 %.",
-        frame=frame[frame["measure"].isin(TOLD) | frame["measure"].isna()],
-        columns={"hand": ("hand", ""), "method": ("method", ""), "measure": ("score of", ""),
-                 "of": ("of which", ""), **CHANCE},
+        caption="Boundary F1: the harmonic mean of how many starts and ends of signs are found and "
+        f"how many that are found are right, within {near}. Segment F1 (mF1S): the same of whole "
+        "signs; minima and binning find boundaries, no signs. Manual tags would have 1. Refined "
+        "tags are made of them, so theirs tell how far they were moved; minima and binning do not "
+        "know the tags. By chance: the same lengths and gaps in another order within each "
+        "recording, 95 %. The file has all other measures.",
+        frame=rows,
+        columns={
+            "hand": ("hand", ""), "method": ("method", ""),
+            "value": ("boundary F1", S3), "chance_told": ("by chance", ""),
+            "value_segment": ("segment F1", S3), "chance_told_segment": ("by chance", ""),
+            "note": ("note", ""),
+        },
         file=path,
         most=12,
     )  # fmt: skip
+
+
+def _of_measure(frame: pd.DataFrame, measure: str) -> pd.DataFrame:
+    """Return the rows of a measure, at the least tolerance where there are several.
+
+    With those of a hand and method that say only why there is none (in `note`).
+    """
+    own = frame[(frame["measure"] == measure) | frame["measure"].isna() | (frame["measure"] == "")]
+    own = own.drop_duplicates(["hand", "method"])
+    told = [
+        "" if pd.isna(row.chance_low) else f"{row.chance_low:.3f} to {row.chance_high:.3f}"
+        for row in own.itertuples()
+    ]
+    return own.assign(chance_told=told)[["hand", "method", "of", "value", "chance_told", "note"]]
 
 
 def _in_words(owner: Owner) -> Iterator[str]:

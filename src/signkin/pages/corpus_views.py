@@ -36,29 +36,33 @@ def recordings_views(owner: Owner, file: Path) -> Iterator[View]:
     )
     frame = rated(owner, frame)
     extra = owner.about.set_index("recording")
-    for column in sign_columns(owner.sources.corpora[owner.name]):
+    own = sign_columns(owner.sources.corpora[owner.name])
+    for column in own:
         frame[column] = frame["recording"].map(extra[column])
     columns: dict[str, tuple[str, str]] = {
-        "recording": ("recording", ""), "signer": ("signer", ""), "flags": ("odd", "d"),
-        **sign_columns(owner.sources.corpora[owner.name]),
-        "rate_hz": ("rate (Hz)", "g"), "duration_s": ("length (s)", ".2f"),
+        "recording": ("recording", ""), "signer": ("signer", ""), **own,
+        "rate_hz": ("Hz", "g"), "duration_s": ("length (s)", ".2f"),
         "gap_share": ("missing", ".1%"), "longest_gap_s": ("longest gap (s)", ".2f"),
     }  # fmt: skip
     if owner.tagged:
         columns |= {
-            "transitions": ("transitions", "d"), "mean_s": ("mean duration (s)", S3),
-            "low_s": ("low", S3), "high_s": ("high", S3), "near": ("tags at minima", ".0%"),
+            "transitions": ("transitions", "d"), "mean_s": ("mean (s)", S3),
+            "near": ("tags at minima", ".0%"),
         }  # fmt: skip
+    columns |= {"flags": ("odd", "d"), "odd": ("what looks odd", "")}
     if frame["page"].ne("").any():
         columns["page"] = ("open", "open")
-    columns |= {"rating": ("your rating", "rating"), "odd": ("what looks odd", "")}
+    columns["rating"] = ("your rating", "rating")
     yield TableView(
         label="",
         title="All recordings",
-        caption="Missing: share of all positions, before gaps are filled. Low, high: 95 % interval "
-        "of the mean duration in that recording. Tags at minima: of the hand that has more."
-        if owner.tagged
-        else "Missing: share of all positions, before gaps are filled.",
+        caption="Missing: share of all positions, before gaps are filled."
+        + (
+            " Mean: of the durations of its transitions (interval: Durations of transitions, by "
+            "recording). Tags at minima: of the hand that has more."
+            if owner.tagged
+            else ""
+        ),
         frame=frame,
         columns=columns,
         file=file,
@@ -109,10 +113,13 @@ def _distances(owner: Owner) -> PlotView:
             row.mean_distance, row.duration_s, row.recording, row.signer,
             f"{row.previous_gloss} → {row.next_gloss}, {row.recording} at {row.start_s:.2f} s: "
             f"{row.duration_s:.2f} s",
+            address=owner.sources.excerpt(owner.name, row.recording, row.start_s),
         )
         for row in rows.itertuples()
     ]  # fmt: skip
     shown, told = thinned(points)
+    if any(point.address for point in shown):
+        told += " A point that is chosen leads to its transition; a double click goes there."
     several = rows["mean_distance"].nunique() > 1 and rows["duration_s"].nunique() > 1
     correlation = (
         np.corrcoef(rows["mean_distance"], rows["duration_s"])[0, 1] if several else np.nan
@@ -122,8 +129,9 @@ def _distances(owner: Owner) -> PlotView:
     return PlotView(
         label="",
         title="Duration and distance of each transition",
-        caption=f"{finding} Distance: how far apart the two postures are, mean of the normalised "
-        f"distances of position and orientation (where there are orientations).{told}",
+        caption=f"{finding} It is Figure 7 of Naert et al. (2017). Distance: how far apart the two "
+        "postures are, mean of the normalised distances of position and orientation (where there "
+        f"are orientations).{told}",
         drawing=scatter(shown, "mean normalised distance", "duration (s)", finding),
         files=[owner.sources.tagged_file(owner.name, "transitions")],
     )
@@ -208,9 +216,9 @@ def todo_view(owner: Owner, file: Path, elan: dict[str, Path]) -> TableView:
     )
     frame = rated(owner, frame)
     columns: dict[str, tuple[str, str]] = {
-        "urgency": ("how urgent", ""), "what": ("what", ""), "recording": ("recording", ""),
-        "signer": ("signer", ""), "gloss": ("sign", ""), "start_s": ("from (s)", ".2f"),
-        "end_s": ("to (s)", ".2f"), "why": ("why", ""),
+        "urgency": ("how urgent", ""), "why": ("why", ""), "what": ("what", ""),
+        "recording": ("recording", ""), "signer": ("signer", ""), "gloss": ("sign", ""),
+        "start_s": ("from (s)", ".2f"), "end_s": ("to (s)", ".2f"),
     }  # fmt: skip
     if frame["page"].ne("").any():
         columns["page"] = ("excerpt", "open")
@@ -294,12 +302,14 @@ def _durations(
     first: dict[str, tuple[str, str]], keys: tuple[str, ...] = (),
 ) -> TableView:  # fmt: skip
     told = rows["name"].map(lambda name: FROM.get(name, name))
+    several = set(rows["group"]) != {"recording"}
+    columns = {k: v for k, v in DURATION_COLUMNS.items() if several or k != "recordings"}
     return TableView(
         label="",
         title=title,
         caption=caption,
         frame=rows.assign(told=told),
-        columns={**first, **DURATION_COLUMNS},
+        columns={**first, **columns},
         file=file,
         most=20,
         keys=keys,

@@ -23,6 +23,10 @@ from signkin.pages.curves import table_of
 from signkin.report.page import FigureView
 
 NAME = "readings"
+WHITE = (
+    "White: what the claim compares has no value under that reading (such as hits by no false "
+    "positives), so that it cannot be judged. "
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +116,22 @@ def _draw(
     last = list(found.values())[-1]
     specification.plot_choices(last.assign(holds=False), levels, ax=axes[-1])
     axes[-1].set_xlabel(f"{len(last)} readings that keep all that is printed")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower right", ncols=3)
+    named = {
+        label: handle
+        for ax in axes[:-1]
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(list(named.values()), list(named), loc="outside lower right", ncols=len(named))
     return figure
+
+
+def _claims_of(points: pd.DataFrame) -> list[str]:
+    return [c for c in points.columns if (points[c].isin(["yes", "no", ""])).all()]
+
+
+def _unjudged(points: pd.DataFrame) -> bool:
+    """Whether some claim has, under some reading, nothing to judge it by."""
+    return bool((points[_claims_of(points)] == "").any(axis=None))
 
 
 def told(points: pd.DataFrame) -> str:
@@ -122,7 +139,7 @@ def told(points: pd.DataFrame) -> str:
 
     points: as `DrawnReadings.points`.
     """
-    claims = [c for c in points.columns if (points[c].isin(["yes", "no", ""])).all()]
+    claims = _claims_of(points)
     out = []
     for corpus, part in points.groupby("corpus", sort=False):
         shares = ", ".join(f"{c} {int((part[c] == 'yes').sum())}" for c in claims)
@@ -148,7 +165,8 @@ def views(papers: Sequence[Paper], folder: Path) -> Iterator[FigureView]:
             title=f"{paper.title}: which claims hold under which reading",
             caption="Readings that keep all that the paper prints, a column each; below, what was "
             "chosen of what it does not print. Claims are judged as in their curves. "
-            f"{told(points)}.",
+            + (WHITE if _unjudged(points) else "")
+            + f"{told(points)}.",
             svg=base.with_suffix(".svg"),
             files=[base.with_suffix(s) for s in (".svg", ".pdf", ".csv")],
         )

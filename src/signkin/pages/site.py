@@ -35,9 +35,10 @@ Maker = Callable[[Sources, list[tuple[str, Path]]], Page]
 def site_of(sources: Sources) -> list[tuple[str, Path]]:
     """Return the pages of the report, title and file, in the order of its contents."""
     home = sources.home
+    real_first = sorted(sources.corpora, key=lambda name: bool(sources.corpora[name].simulator))
     return [
         (FRONT, home / "index.html"),
-        *((name, home / "corpora" / f"{name}.html") for name in sources.corpora),
+        *((name, home / "corpora" / f"{name}.html") for name in real_first),
         (NAERT, home / "papers" / "naert2017.html"),
         (ENDRES, home / "papers" / "endres2013.html"),
         (ONE_WRIST, home / "papers" / "one_wrist.html"),

@@ -30,7 +30,28 @@ from signkin.report.images import Images, InPlace, data_uri, size_of
 
 
 @dataclass(frozen=True)
-class TableView:
+class Captioned:
+    """What every table, figure and plot of a page has above and below it.
+
+    of: the corpus, where a page has several. badge: `simulated`, `real` or nothing. folded: it
+    stands behind its title; opened: but is open at first. verdicts: (on what, verdict), told
+    below the title. inner: what belongs to it and stands below it, folded with it.
+    """
+
+    label: str
+    title: str
+    caption: str
+    differs: str = field(default="", kw_only=True)
+    of: str = field(default="", kw_only=True)
+    badge: str = field(default="", kw_only=True)
+    folded: bool = field(default=False, kw_only=True)
+    opened: bool = field(default=False, kw_only=True)
+    verdicts: Sequence[tuple[str, str]] = field(default=(), kw_only=True)
+    inner: Sequence[View] = field(default=(), kw_only=True)
+
+
+@dataclass(frozen=True)
+class TableView(Captioned):
     """A table as it is shown: what is above it, the columns shown, the file with all of it.
 
     columns: column -> (heading, format); the format is empty for text, `verdict` for a verdict,
@@ -39,52 +60,41 @@ class TableView:
     signer, ...) that a row is known by, for marks in plots and ratings.
     """
 
-    label: str
-    title: str
-    caption: str
     frame: pd.DataFrame
     columns: Mapping[str, tuple[str, str]]
     file: Path | None = None
-    differs: str = ""
     most: int = 24
     emphasis: str = ""  # a column whose value `yes` or `no` colours the row
     keys: Sequence[str] = ()
-    of: str = ""  # the corpus, where a page has several
-    badge: str = ""  # `simulated`, `real` or nothing
-    folded: bool = False  # behind its title
+
+    @property
+    def shown(self) -> Mapping[str, tuple[str, str]]:
+        """The columns without that of notes where there is no note."""
+        if "note" not in self.columns or "note" not in self.frame:
+            return self.columns
+        notes = self.frame["note"]
+        if len(notes) and (notes.notna() & notes.ne("")).any():
+            return self.columns
+        return {name: head for name, head in self.columns.items() if name != "note"}
 
 
 @dataclass(frozen=True)
-class FigureView:
+class FigureView(Captioned):
     """A figure as it is shown, with its caption, its files and how it differs from the paper's."""
 
-    label: str
-    title: str
-    caption: str
     svg: Path
     files: Sequence[Path] = ()
-    differs: str = ""
-    of: str = ""
-    badge: str = ""
-    folded: bool = False
 
 
 @dataclass(frozen=True)
-class PlotView:
+class PlotView(Captioned):
     """A plot whose points can be chosen: SVG that stands in the page.
 
-    drawing: of `signkin.report.plots`. finding: what it shows, for who does not see it.
+    drawing: of `signkin.report.plots`.
     """
 
-    label: str
-    title: str
-    caption: str
     drawing: Markup
     files: Sequence[Path] = ()
-    differs: str = ""
-    of: str = ""
-    badge: str = ""
-    folded: bool = False
 
 
 View = TableView | FigureView | PlotView
@@ -184,7 +194,7 @@ def rows_of(view: TableView) -> list[dict[str, Any]]:
 def shown_of(view: TableView, most: int = MOST_LETTERS) -> Shown:
     """Return a table's rows as the page has them: no more than so many letters of them."""
     rows = rows_of(view)
-    notes = notes_of(view.frame, view.columns)
-    more = texts_of(rows[view.most :], view.columns, notes, view.keys)
+    notes = notes_of(view.frame, view.shown)
+    more = texts_of(rows[view.most :], view.shown, notes, view.keys)
     fit = first_that_fit(more, most)
     return Shown(rows[: view.most], notes, more[:fit], len(more) - fit)

@@ -17,7 +17,10 @@ LONGEST_NAME = 60  # of a recording in the words of a point
 
 @dataclass(frozen=True)
 class Point:
-    """A point: where, of what; low, high: an interval of y. told: what a reader sees on it."""
+    """A point: where, of what; low, high: an interval of y. told: what a reader sees on it.
+
+    address: of the page that shows what it stands for.
+    """
 
     x: float
     y: float
@@ -26,6 +29,7 @@ class Point:
     told: str
     low: float | None = None
     high: float | None = None
+    address: str = ""
 
 
 def thinned(points: Sequence[Point], most: int = MOST_POINTS) -> tuple[Sequence[Point], str]:
@@ -73,6 +77,7 @@ def scatter(
         if p.low is not None and p.high is not None and np.isfinite([p.low, p.high]).all():
             line = f'<path d="M{x} {_at(y_of, p.low)}V{_at(y_of, p.high)}"/>'
         about = f'data-recording="{escape(p.recording)}" data-signer="{escape(p.signer)}"'
+        about += f' data-open="{escape(p.address)}"' if p.address else ""
         parts.append(
             f'<g {about}><title>{escape(p.told)}</title>{line}<circle cx="{x}" cy="{y}" r="3"/></g>'
         )

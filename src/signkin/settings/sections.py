@@ -399,6 +399,18 @@ class OpenChoices(Section):
     endres2013: EndresChoices = EndresChoices()
 
 
+class Samples(Section):
+    """What is drawn at random, or made anew, is of a seeded sample of a larger corpus's recordings.
+
+    So that such a step costs the same whatever the corpus; each table tells where it is a sample.
+    """
+
+    transitions: int = key(
+        700, "Recordings are drawn until they hold so many pairs of neighbouring signs: for chance "
+        "baselines, the jitter of tags, open choices, excerpts, agreement and synthesis.", ge=2,
+    )  # fmt: skip
+
+
 class Report(Section):
     """The pages of a run."""
 
@@ -443,4 +455,5 @@ class Settings(Section):
     powerlaw: PowerLaw = PowerLaw()
     binning: Binning = Binning()
     open_choices: OpenChoices = OpenChoices()
+    samples: Samples = Samples()
     report: Report = Report()

@@ -234,9 +234,9 @@ def _without_excluded(corpus: Corpus, entry: Entry, annotation: Annotation) -> A
     return replace(annotation, intervals=tuple(kept), left_out=(*annotation.left_out, *left_out))
 
 
-def tags_of(intervals: pd.DataFrame, recording: str) -> tuple[Interval, ...]:
+def tags_of(intervals: pd.DataFrame | tables.ByRecording, recording: str) -> tuple[Interval, ...]:
     """Return the tags of a recording from the table `intervals`, as the annotation writes them."""
-    rows = intervals[intervals["recording"] == recording]
+    rows = tables.rows_of(intervals, recording)
     columns = zip(rows["start_s"], rows["end_s"], rows["written"], rows["tier"], strict=True)
     # A label may be empty, which a table read from a file has as missing.
     found = [

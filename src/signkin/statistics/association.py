@@ -15,6 +15,7 @@ from signkin.statistics.findings import Finding, Kind, untestable
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
+MOST_UNITS = 1000  # that a bootstrap draw takes
 PEARSON, SPEARMAN, ISOCHRONY = "Pearson", "Spearman", "isochrony exponent"
 
 
@@ -32,19 +33,28 @@ def bootstrap(
     A draw for which the statistic cannot be computed (NaN) is left out of the quantiles.
     of_many: the statistic of many draws at once, (draws, rows) -> (draws,): taken for single rows,
     whose draws are all as long.
+
+    Of more than MOST_UNITS units, N, a draw takes m = MOST_UNITS of them, and the interval is
+    narrowed about the statistic of all rows by the square root of m / N (the m out of N bootstrap;
+    Bickel, Goetze and van Zwet 1997): draws cost the same whatever N.
     """
     labels = np.unique(np.asarray(units, dtype=object).astype(str), return_inverse=True)[1]
-    members = [np.flatnonzero(labels == i) for i in range(labels.max() + 1)]
+    order = np.argsort(labels, kind="stable")
+    members = np.split(order, np.cumsum(np.bincount(labels))[:-1])
 
     def drawn(chosen: Rows) -> Array:
         return np.asarray(statistic(np.concatenate([members[i] for i in chosen])), dtype=float)
 
     n = len(members)
+    taken = min(n, MOST_UNITS)
     if of_many is not None and n == len(labels):
-        values = of_many(np.concatenate(members)[rng.integers(0, n, (draws, n))])
+        values = of_many(np.concatenate(members)[rng.integers(0, n, (draws, taken))])
     else:
-        values = np.stack([drawn(rng.integers(0, n, n)) for _ in range(draws)])
+        values = np.stack([drawn(rng.integers(0, n, taken)) for _ in range(draws)])
     low, high = np.nanquantile(values, [alpha / 2, 1 - alpha / 2], axis=0)
+    if taken < n:
+        whole = np.asarray(statistic(np.arange(len(labels))), dtype=float)
+        low, high = (whole + np.sqrt(taken / n) * (bound - whole) for bound in (low, high))
     return low, high
 
 

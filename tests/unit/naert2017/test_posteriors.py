@@ -33,7 +33,9 @@ def made(monkeypatch):
         name="c", unit="m", by_name={"r": None}, dominant_hand=lambda entry: "right"
     )
     types = pd.DataFrame({"recording": "r", "sign": range(1, 21), "type": ["00", "11"] * 10})
-    table = posteriors.boundary_posteriors(corpus, ["r"], intervals, minima, types, 6.0)
+    models = posteriors.tag_models(corpus, ["r"], intervals, minima, types, 6.0)
+    models = posteriors.models_of(posteriors.models_text(models))
+    table = posteriors.boundary_posteriors(corpus, ["r"], intervals, minima, types, models)
     return signs, intervals, table
 
 

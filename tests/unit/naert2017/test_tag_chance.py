@@ -9,6 +9,7 @@ import pytest
 from signkin import tables
 from signkin.settings import Settings
 from signkin.statistics.nulls import MEAN_SHARE, MEDIAN, SHARE
+from signkin.studies.naert2017.sampling import Sample
 from signkin.studies.naert2017.tag_chance import tag_chance
 
 
@@ -32,7 +33,7 @@ def frames(signs, minima):
 
 
 def found(signs, minima, corpus=CORPUS):
-    return tag_chance(corpus, *frames(signs, minima), ["r"], REFINEMENT, 1)
+    return tag_chance(corpus, *frames(signs, minima), Sample(("r",), 1), REFINEMENT, 1)
 
 
 def made():

@@ -18,6 +18,7 @@ with job(snakemake, analysis=True):
         tables.read_table(source.sign_types, "sign_types"),
         params.settings.refinement.search_window_s,
         params.seed,
+        params.settings.samples.transitions,
     )
     for name, table in made.items():
         tables.write_table(table, out[name], name)

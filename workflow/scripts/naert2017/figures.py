@@ -26,6 +26,7 @@ with job(snakemake, analysis=True) as work:
         frames=[Path(path) for path in source.frames],
         published=pd.read_csv(source.published, dtype=str, keep_default_na=False),
         settings=params.settings,
+        seed=params.seed,
     )
     folder = Path(out.captions).parent
     with paper_style():

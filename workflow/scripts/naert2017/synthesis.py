@@ -12,15 +12,20 @@ with job(snakemake, analysis=True):
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
-    base, _ = load_database(
-        corpus, source.recordings, source.intervals, source.excluded, params.settings
+    base, _, chosen = load_database(
+        corpus,
+        source.recordings,
+        source.intervals,
+        source.excluded,
+        params.settings,
+        params.seed,
     )
     rows = comparison(base, params.settings)
     errors = summary(rows, corpus, params.draws, params.seed)
     printed = synthesis_readings(base, params.settings, params.seed)
     for kind, table in {
         "synthesis": rows,
-        "synthesis_summary": errors,
-        "readings_synthesis": printed,
+        "synthesis_summary": chosen.told(errors),
+        "readings_synthesis": chosen.told(printed),
     }.items():
         tables.write_table(table, out[kind], kind, corpus.unit)

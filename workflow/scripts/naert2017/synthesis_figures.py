@@ -15,8 +15,13 @@ with job(snakemake, analysis=True) as work:
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
     listing = of_groups(exhibits(Path(source.exhibits).parent), *params.groups)
-    base, _ = load_database(
-        corpus, source.recordings, source.intervals, source.excluded, params.settings
+    base, _, _ = load_database(
+        corpus,
+        source.recordings,
+        source.intervals,
+        source.excluded,
+        params.settings,
+        params.seed,
     )
     made = Synthesised(
         base=base,

@@ -12,18 +12,20 @@ with job(snakemake, analysis=True):
     from signkin.studies.naert2017.figures.refinement_quality import draw_quality
     from signkin.studies.naert2017.lexicon import lexicon_use
     from signkin.studies.naert2017.posterior_durations import posterior_durations
-    from signkin.studies.naert2017.posteriors import boundary_posteriors
     from signkin.studies.naert2017.readings import plain_boundaries, plain_segmentations
     from signkin.studies.naert2017.refinement import refinement
-    from signkin.studies.naert2017.table1 import table1
+    from signkin.studies.naert2017.sampling import sample
     from signkin.studies.naert2017.table2 import table2
     from signkin.studies.naert2017.tag_chance import tag_chance
+    from signkin.studies.naert2017.tagged import together
     from signkin.studies.naert2017.transitions import left_out
 
     source, out, settings = snakemake.input, snakemake.output, snakemake.params.settings
     corpus = load_corpus(Path(snakemake.params.corpus))
     unit = corpus.unit
     boundaries = tables.concatenated(source.boundaries, "boundaries", unit)
+    parts = [part for part in map(pd.read_parquet, source.posteriors) if len(part)]
+    posteriors = together(parts, "boundary_posteriors", unit)
     sign_types = tables.concatenated(source.sign_types, "sign_types", unit)
     raw = tables.concatenated(source.transitions, "raw_transitions", unit)
     intervals = tables.read_table(source.intervals, "intervals")
@@ -31,34 +33,32 @@ with job(snakemake, analysis=True):
     about = tables.read_table(source.about, "recordings")
     published = pd.read_csv(source.published, dtype=str, keep_default_na=False)
 
+    seed = snakemake.params.seed
+    chosen = sample(
+        corpus.name, boundaries["recording"], intervals, settings.samples.transitions, seed
+    )
     moves = with_normalised(raw, unit)
     quality, chance = refinement(
-        corpus, about, intervals, minima, boundaries, settings.refinement, snakemake.params.seed
+        corpus, about, intervals, minima, boundaries, settings.refinement, seed, chosen
     )
-    tagged = dict.fromkeys(boundaries["recording"])
-    near = tag_chance(
-        corpus, about, intervals, minima, tagged, settings.refinement, snakemake.params.seed
-    )
-    posteriors = boundary_posteriors(
-        corpus, tagged, intervals, minima, sign_types, settings.kinematics.lowpass.cutoff_hz
-    )
+    near = tag_chance(corpus, about, intervals, minima, chosen, settings.refinement, seed)
     durations = posterior_durations(
         corpus.name,
-        moves,
-        posteriors,
+        chosen.rows(moves),
+        chosen.rows(posteriors),
         unit,
         settings.transitions.euclidean_unit_m,
-        snakemake.params.seed,
+        seed,
     )
     made = {
         "boundaries": ("boundaries", boundaries),
         "posteriors": ("boundary_posteriors", posteriors),
-        "posterior_durations": ("posterior_durations", durations),
+        "posterior_durations": ("posterior_durations", chosen.told(durations)),
         "sign_types": ("sign_types", sign_types),
         "transitions": ("transitions", moves),
         "left_out": ("transitions", left_out(moves)),
         "lexicon": ("lexicon", lexicon_use(corpus, sign_types)),
-        "table1": ("table1", table1(corpus, intervals, sign_types)),
+        "table1": ("table1", tables.concatenated(source.table1, "table1", unit)),
         "table2": ("table2", table2(corpus.name, moves, published, settings.transitions)),
         "refinement": ("refinement", quality),
         "tag_chance": ("tag_chance", near),

@@ -11,14 +11,21 @@ with job(snakemake, analysis=True):
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
     corpus = load_corpus(Path(params.corpus))
-    base, found = load_database(
-        corpus, source.recordings, source.intervals, source.excluded, params.settings
+    wanted = wanted_of(corpus.name, params.settings.synthesis.utterances)
+    base, found, _ = load_database(
+        corpus,
+        source.recordings,
+        source.intervals,
+        source.excluded,
+        params.settings,
+        params.seed,
+        [gloss for glosses in wanted.values() for gloss in glosses],
     )
     parts = utterance_files(
         corpus,
         Path(params.data),
         base,
-        wanted_of(corpus.name, params.settings.synthesis.utterances),
+        wanted,
         params.settings,
         printed_theta(source.constants),
         Path(out.folder),

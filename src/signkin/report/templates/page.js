@@ -2,6 +2,7 @@
 // Tables that sort, filter and turn pages; marks in plots. Without it the first rows are there.
 (() => {
 const MOST_AT_ONCE = 500;
+const WORDS = ["verdict", "link", "open", "rating"]; // formats of columns that hold text
 const place = (tag, text, into, attributes = {}) => {
   const made = document.createElement(tag);
   if (text !== null) made.textContent = text;
@@ -22,7 +23,8 @@ const link = (td, address, text) => {
   place("a", text, td, { href: address });
 };
 const fill = (td, text, form, heading) => {
-  td.className = form && !["verdict", "link", "open", "rating"].includes(form) ? "number" : "text";
+  const length = text.length > 40 ? "text long" : text.length <= 16 ? "text short" : "text";
+  td.className = !form ? length : WORDS.includes(form) ? "text" : "number";
   if (form === "verdict") {
     place("span", text, td, { class: "verdict " + text.replaceAll(" ", "-") });
   } else if (form === "link") {
@@ -107,7 +109,7 @@ class Table {
     this.heads.forEach(th => th.removeAttribute("aria-sort"));
     this.heads[i].setAttribute("aria-sort", this.down ? "descending" : "ascending");
     const form = this.forms[i];
-    const numeric = form && !["verdict", "link", "open", "rating"].includes(form);
+    const numeric = form && !WORDS.includes(form);
     const sign = this.down ? -1 : 1;
     this.rows.sort((a, b) => {
       const [x, y] = [a.cells[i], b.cells[i]];
@@ -198,11 +200,54 @@ function mark() {
 
 for (const box of document.querySelectorAll(".scroll[data-most]")) tables.push(new Table(box));
 for (const point of document.querySelectorAll("svg.plot [data-recording]")) {
-  point.addEventListener("click", () => choose("recording", point.dataset.recording));
+  point.addEventListener("click", () => {
+    const { recording, open } = point.dataset;
+    const told = point.closest(".exhibit").querySelector(".marked");
+    if (!open || !told) return choose("recording", recording);
+    // Another point of the same recording is another place to open, and takes no mark away.
+    if (chosen.key !== "recording" || chosen.value !== recording) choose("recording", recording);
+    else mark();
+    told.append(" ");
+    link(told, open, "Open " + point.querySelector("title").textContent);
+  });
+  point.addEventListener("dblclick", () => {
+    if (point.dataset.open) location.href = point.dataset.open;
+  });
 }
-addEventListener("beforeprint", () => {
-  for (const folded of document.querySelectorAll("main details")) folded.open = true;
+// What is folded: opened where an address leads, all at once, and on paper.
+const folds = [...document.querySelectorAll("main details.fold")];
+const unfold = () => {
+  let there = null;
+  try { there = document.getElementById(decodeURIComponent(location.hash.slice(1))); } catch { /* not an address of ours */ }
+  const fold = there && there.classList.contains("exhibit") ? there.querySelector("details.fold") : null;
+  if (!fold || fold.open) return;
+  fold.open = true;
+  there.scrollIntoView();
+};
+for (const section of document.querySelectorAll("main section")) {
+  const own = folds.filter(fold => section.contains(fold));
+  if (own.length < 3) continue;
+  const bar = place("p", null, null, { class: "bar" });
+  const name = section.querySelector("h2").textContent.trim();
+  for (const [text, open] of [["Open all", true], ["Close all", false]]) {
+    const button = place("button", text, bar, { type: "button", "aria-label": `${text} of ${name}` });
+    button.addEventListener("click", () => { for (const fold of own) fold.open = open; });
+  }
+  own[0].closest(".exhibit").before(bar);
+}
+addEventListener("hashchange", unfold);
+document.addEventListener("click", event => { // the same address once more changes no hash
+  const to = event.target.closest && event.target.closest("a[href^='#']");
+  if (to && to.getAttribute("href") === location.hash) unfold();
 });
+unfold();
+let closed = [];
+addEventListener("beforeprint", () => {
+  closed = [...document.querySelectorAll("main details:not([open])")];
+  for (const folded of closed) folded.open = true;
+  for (const image of document.images) image.loading = "eager";
+});
+addEventListener("afterprint", () => { for (const folded of closed) folded.open = false; });
 document.addEventListener("keydown", event => { if (event.key === "Escape") choose("", ""); });
 if (matchMedia("(max-width: 900px)").matches) {
   document.querySelector("nav .contents").open = false;

@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from signkin import tables
-from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hit_rate, hpfpps
+from signkin.binning.hit_rate import ChanceLine, HitRate, chance_line, hit_rate, pooled_hpfpps
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 from signkin.io.store import read_recordings
@@ -75,6 +75,7 @@ def order_choices(
     for bins in grid.bins:
         cut = single_signs(corpus, recordings, replace(settings.cut, bins=bins), seed).trajectories
         line = _chance(corpus, cut, settings.fit.hit_window_s, bins, seed)
+        given = [Data(t, t.dataset, t.x, None, t.boundaries_s) for t in cut]
         for prior in priors(grid, corpus.unit):
             told = {
                 "corpus": corpus.name,
@@ -87,7 +88,7 @@ def order_choices(
                 "default": _yes(prior == settings.fit.prior and bins == settings.cut.bins),
             }
             fit = replace(settings.fit, prior=prior, orders=grid.orders)
-            rows.append({**told, **_outcomes(corpus, cut, line, fit, workers)})
+            rows.append({**told, **_outcomes(corpus, given, line, fit, workers)})
     return pd.DataFrame(rows, columns=tables.TABLES["order_choices"].names(corpus.unit))
 
 
@@ -118,17 +119,16 @@ def _printed(concentration: float, bins: int) -> bool:
 
 
 def _outcomes(
-    corpus: Corpus, cut: Sequence[Trajectory], line: ChanceLine | None, settings: FitSettings,
+    corpus: Corpus, given: Sequence[Data], line: ChanceLine | None, settings: FitSettings,
     workers: int,
 ) -> dict[str, Any]:  # fmt: skip
     orders = settings.orders
     runs = Study(corpus, settings, workers)
-    given = [Data(t, t.dataset, t.x, None, t.boundaries_s) for t in cut]
     # Expectations are worked out where something rests on them: a third of a fit's time.
     wanted = (RECOVERED,) if RECOVERED in orders else False
     fits = runs.run([one for one in given if one.dataset == RECORDED], wanted)
     truths = runs.run([one for one in given if one.dataset == POWERLAW], False)
-    out: dict[str, Any] = {"recordings": len({t.recording for t in cut}), "note": ""}
+    out: dict[str, Any] = {"recordings": len({one.source.recording for one in given}), "note": ""}
     for order in (0, 3, 7):
         if order in orders:
             counts = pd.Series([one.posterior.map_count(order) for one in fits])
@@ -138,9 +138,8 @@ def _outcomes(
     out["probability_3_to_5_recorded"] = float(posterior.reindex([3, 4, 5]).sum())
     if RECOVERED in orders:
         explained = [
-            explained_variance(x - x.mean(axis=0), one.posterior.expected_trajectory(RECOVERED))
+            explained_variance(one.data.centred, one.posterior.expected_trajectory(RECOVERED))
             for one in fits
-            for x in [one.data.x]
         ]
         out["explained_variance_order_3"] = pd.Series(explained).mean()
         out |= _recovered(runs, settings, fits)
@@ -152,13 +151,8 @@ def _outcomes(
 
 def _mean_probability(fits: Sequence[Fitted]) -> pd.Series:
     """Return the mean probability of each order."""
-    rows = [
-        (order, float(p))
-        for one in fits
-        for order, p in zip(one.posterior.orders, one.posterior.order_probability, strict=True)
-    ]
-    frame = pd.DataFrame(rows, columns=["order", "order_probability"])
-    return frame.groupby("order")["order_probability"].mean()
+    probability = np.mean([one.posterior.order_probability for one in fits], axis=0)
+    return pd.Series(probability, index=list(fits[0].posterior.orders)).sort_index()
 
 
 def _rate(one: Fitted, order: int, settings: FitSettings) -> HitRate:
@@ -189,8 +183,7 @@ def _hits(
     out: dict[str, Any] = {}
     for order in sorted(settings.orders):
         rates = [_rate(one, order, settings) for one in truths]
-        # Only the ratio itself is wanted here, not its bootstrap.
-        ratios[order] = hpfpps(rates, 0, draws=2).value
+        ratios[order] = pooled_hpfpps(rates)
         if order == RECOVERED:
             out["hit_rate_order_3"] = float(np.nanmean([r.hit_rate for r in rates]))
             out["false_positives_per_s_order_3"] = float(

@@ -9,7 +9,8 @@ is exactly piecewise polynomial, from the most probable segmentation.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,21 @@ class Data:
     truth_s: Floats
     noise_share: float = 1.0
 
+    @cached_property
+    def centred(self) -> Floats:
+        """The positions around their mean, (T, L): the same under each of many priors."""
+        return self.x - self.x.mean(axis=0)
+
+    @cached_property
+    def gaps(self) -> int:
+        """How many bins have no position."""
+        return int((~np.isfinite(self.x)).any(axis=1).sum())
+
+    @cached_property
+    def moves(self) -> bool:
+        """Whether bins differ."""
+        return bool((self.centred.std(axis=0) > 0).any())
+
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
@@ -104,10 +120,25 @@ class Fitted:
 
     data: Data
     posterior: Posterior
+    _told: dict[int, Mapping[str, Any]] = field(default_factory=dict, init=False, repr=False)
 
     def boundaries_s(self, order: int) -> Floats:
         """Return the M_opt boundaries of an order, in s from the start."""
         return self.posterior.boundaries_s(order)
+
+    def told(self, order: int) -> Mapping[str, Any]:
+        """Return what is told of an order whatever the window of hits; worked out once."""
+        if order not in self._told:
+            posterior, misfit = self.posterior, self.posterior.noise_misfit(order)
+            expected = posterior.expected_trajectory(order)
+            self._told[order] = {
+                "boundaries_s": self.boundaries_s(order),
+                "expected_count": float(posterior.boundary_probability(order).sum()),
+                "explained_variance": explained_variance(self.data.centred, expected),
+                "noise_misfit": misfit,
+                "doubts": posterior.doubts(order, misfit),
+            }
+        return self._told[order]
 
 
 def chosen(names: Sequence[str], most: int) -> list[str]:
@@ -160,11 +191,10 @@ class Study:
 
     def _ready(self, item: Data) -> tuple[Floats, Prior]:
         where = f"recording {item.source.recording}"
-        gaps = int((~np.isfinite(item.x)).any(axis=1).sum())
-        if gaps:
-            raise SignkinError(f"{gaps} bins without a position", file=where, expected="none")
-        x = item.x - item.x.mean(axis=0)
-        if not (x.std(axis=0) > 0).any():
+        if item.gaps:
+            raise SignkinError(f"{item.gaps} bins without a position", file=where, expected="none")
+        x = item.centred
+        if not item.moves:
             raise SignkinError("all bins are equal", file=where, expected="a movement")
         if len(x) <= max(self.orders):
             raise SignkinError(
@@ -203,10 +233,9 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
     start = lead(corpus, source.recording)
     entry = corpus.by_name[source.recording]
     known = data.dataset != RECORDED
-    x = data.x - data.x.mean(axis=0)
     prior = prior_id(settings.prior, data.noise_share)
     for i, order in enumerate(posterior.orders):
-        misfit = posterior.noise_misfit(order)
+        told = fitted.told(order)
         row: dict[str, Any] = {
             **start,
             "sign": entry.sign,
@@ -214,23 +243,23 @@ def rows_of(corpus: Corpus, settings: FitSettings, fitted: Fitted) -> Iterator[d
             "dataset": data.dataset,
             "true_order": data.true_order,
             "prior_id": prior,
-            "n_bins": len(x),
+            "n_bins": len(data.x),
             "duration_s": source.duration_s,
             "order": order,
             "log_evidence": posterior.log_evidence[i],
             "order_probability": posterior.order_probability[i],
             "map_count": posterior.map_count(order),
-            "expected_count": float(posterior.boundary_probability(order).sum()),
+            "expected_count": told["expected_count"],
             "cut_mass": posterior.cut_mass[i],
-            "explained_variance": explained_variance(x, posterior.expected_trajectory(order)),
-            "noise_misfit": misfit,
+            "explained_variance": told["explained_variance"],
+            "noise_misfit": told["noise_misfit"],
             "at_floor": "yes" if posterior.at_floor(order) else "no",
         }
-        doubts = posterior.doubts(order, misfit)
+        doubts = told["doubts"]
         if not known:
             yield {**row, "note": _joined("boundaries of recorded movements are not known", doubts)}
             continue
-        found, window = fitted.boundaries_s(order), settings.hit_window_s
+        found, window = told["boundaries_s"], settings.hit_window_s
         rate = hit_rate(found, data.truth_s, window, duration_s=source.duration_s)
         chance = shifted_hits(found, data.truth_s, window, duration_s=source.duration_s)
         hpfpps = rate.hpfpps

@@ -35,6 +35,7 @@ from signkin.studies.endres2013.posteriors import (
 from signkin.studies.endres2013.settings import ReadingSettings
 from signkin.studies.endres2013.single_signs import (
     POWERLAW,
+    KnownTruths,
     SingleSigns,
     Trajectory,
     ground_truth,
@@ -43,7 +44,7 @@ from signkin.studies.endres2013.single_signs import (
     single_signs,
     warped,
 )
-from signkin.studies.endres2013.summaries import hit_rates, order_posteriors
+from signkin.studies.endres2013.summaries import Drawn, hit_rates, order_posteriors
 
 OURS = "as configured"
 NOISE = "the recordings' noise for fitted trajectories"
@@ -82,14 +83,16 @@ def readings(
     names = chosen([e.recording for e in corpus.entries], settings.fit.fitted_recordings)
     recordings = [one for path in paths for one in read_recordings(Path(path), names)]
     runs = Study(corpus, settings.fit, workers)
-    cuts = {OURS: single_signs(corpus, recordings, settings.cut, seed)}
+    truths, drawn = KnownTruths(), Drawn()
+    cuts = {OURS: single_signs(corpus, recordings, settings.cut, seed, truths)}
     for name, change in LAWS.items():
         law = settings.cut.powerlaw.model_copy(update=change)
-        cuts[name] = single_signs(corpus, recordings, replace(settings.cut, powerlaw=law), seed)
-    parts = [_summary(corpus, one, settings, seed) for one in _reads(runs, cuts, settings)]
+        cut = replace(settings.cut, powerlaw=law)
+        cuts[name] = single_signs(corpus, recordings, cut, seed, truths)
+    parts = [_summary(corpus, one, settings, seed, drawn) for one in _reads(runs, cuts, settings)]
     equal: dict[str, pd.DataFrame] = {}
     for name, change in ((EQUAL, {}), (EQUAL_PRINTED, LAWS[GAIN_ANY_FIT])):
-        fits = runs.run(_data(equal_bins(corpus, recordings, settings, change, seed)))
+        fits = runs.run(_data(equal_bins(corpus, recordings, settings, change, seed, truths)))
         rows = [row for one in fits for row in rows_of(corpus, settings.fit, one)]
         equal[name] = pd.DataFrame(rows, columns=tables.TABLES["binning"].names())
     parts.append({"binning": equal[EQUAL_PRINTED].assign(reading=EQUAL_PRINTED)})
@@ -137,16 +140,17 @@ def _data(trajectories: Iterable[Trajectory]) -> list[Data]:
 
 def equal_bins(
     corpus: Corpus, recordings: Iterable[Recording], settings: ReadingSettings,
-    change: Mapping[str, object], seed: int,
+    change: Mapping[str, object], seed: int, truths: KnownTruths | None = None,
 ) -> list[Trajectory]:  # fmt: skip
     """Return recorded movements and their ground truth in as many bins each, pair by pair.
 
-    change: settings of the ground truth that are not as configured.
+    change: settings of the ground truth that are not as configured. truths: those known already.
 
     Ground truth has 240 Hz and so a hundred bins, where a recording of 25 Hz has as few as it has
     samples: orders of the two are to be compared at equal T.
     """
     out = []
+    truth_of = ground_truth if truths is None else truths.of
     law = settings.cut.powerlaw.model_copy(update=dict(change))
     for recording in recordings:
         try:
@@ -154,21 +158,23 @@ def equal_bins(
             as_recorded = recorded(movement, settings.cut.bins)
         except SignkinError:  # listed where trajectories are made: left_out.csv
             continue
-        truth = ground_truth(corpus.name, movement.wrist, law, seed)
+        truth = truth_of(corpus.name, movement.wrist, law, seed)
         if not isinstance(truth, LeftOut):
             out += [as_recorded, warped(movement.wrist, truth, len(as_recorded.x))]
     return out
 
 
 def _summary(
-    corpus: Corpus, read: _Read, settings: ReadingSettings, seed: int
+    corpus: Corpus, read: _Read, settings: ReadingSettings, seed: int, drawn: Drawn
 ) -> dict[str, pd.DataFrame]:
     fit = replace(settings.fit, hit_window_s=read.window_s)
     rows = [row for one in read.fits for row in rows_of(corpus, fit, one)]
     frame = pd.DataFrame(rows, columns=tables.TABLES["binning"].names())
     refitted = frame["dataset"].isin([FITTED, FITTED_MAP])
     binning = settings.binning.model_copy(update={"hit_window_s": read.window_s})
-    rates, _ = hit_rates(corpus.name, frame, _truths(read.fits), binning, seed, parts=False)
+    rates, _ = hit_rates(
+        corpus.name, frame, _truths(read.fits), binning, seed, parts=False, drawn=drawn
+    )
     found = {
         "binning": frame[~refitted],
         "order_posteriors": order_posteriors(corpus.name, frame, parts=False),

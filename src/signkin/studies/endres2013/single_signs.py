@@ -92,10 +92,15 @@ class Movement:
 
 
 def single_signs(
-    corpus: Corpus, recordings: Iterable[Recording], settings: CutSettings, seed: int
-) -> SingleSigns:
-    """Cut the recordings of a shard into bins, as recorded and with power-law timing."""
+    corpus: Corpus, recordings: Iterable[Recording], settings: CutSettings, seed: int,
+    truths: KnownTruths | None = None,
+) -> SingleSigns:  # fmt: skip
+    """Cut the recordings of a shard into bins, as recorded and with power-law timing.
+
+    truths: those that other cuts of the same recordings have worked out already.
+    """
     out = SingleSigns()
+    truth_of = ground_truth if truths is None else truths.of
     bins = settings.bins
     for recording in recordings:
         start = lead(corpus, recording.name)
@@ -111,7 +116,7 @@ def single_signs(
                 leave_out(dataset, str(error))
             continue
         out.trajectories.append(trajectory)
-        truth = ground_truth(corpus.name, movement.wrist, settings.powerlaw, seed)
+        truth = truth_of(corpus.name, movement.wrist, settings.powerlaw, seed)
         if isinstance(truth, LeftOut):
             leave_out(POWERLAW, truth.reason)
         else:
@@ -153,6 +158,20 @@ def ground_truth(corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundT
         return warp_to_power_law(wrist.path, wrist.rate_hz, rng, WarpSettings(**dict(law)))
     except SignkinError as error:
         return LeftOut(reason=str(error))
+
+
+class KnownTruths:
+    """Ground truths by recording and law, each worked out once for all cuts into bins."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str, str, int], GroundTruth | LeftOut] = {}
+
+    def of(self, corpus: str, wrist: Wrist, law: PowerLaw, seed: int) -> GroundTruth | LeftOut:
+        """Return `ground_truth`; the wrist of a recording is to be made ready in one way."""
+        key = (corpus, wrist.recording, law.model_dump_json(), seed)
+        if key not in self._known:
+            self._known[key] = ground_truth(corpus, wrist, law, seed)
+        return self._known[key]
 
 
 def warped(wrist: Wrist, truth: GroundTruth, bins: int) -> Trajectory:

@@ -11,12 +11,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from signkin import tables
 from signkin.binning.hit_rate import (
     ChanceLine,
     GroupRates,
     HitRate,
+    Weights,
+    bootstrap_weights,
     chance_line,
     compare_orders,
     group_rates,
@@ -126,15 +129,53 @@ def chance_of(
     return chance_line(truths, durations, rng, RATES_PER_S, settings.hit_window_s, draws)
 
 
+class Drawn:
+    """What was drawn at random for a group. Other readings of it draw the same: it is kept.
+
+    Groups are told by the seed, the corpus and their names, of which the stream is made.
+    """
+
+    def __init__(self) -> None:
+        self._weights: dict[tuple[Any, ...], NDArray[Any]] = {}
+        self._lines: dict[tuple[Any, ...], ChanceLine] = {}
+
+    def weights(self, group: tuple[Any, ...]) -> Weights:
+        """Return what gives the bootstrap's weights of n trajectories of a group."""
+
+        def weigh(n: int, draws: int) -> NDArray[np.int64]:
+            key = (*group, n, draws)
+            if key not in self._weights:
+                seed, corpus, *names = group
+                drawn = bootstrap_weights(stream(seed, corpus, "bootstrap", *names), n, draws)
+                self._weights[key] = drawn.astype(np.min_scalar_type(n))  # an eighth of the room
+            return self._weights[key].astype(np.int64)
+
+        return weigh
+
+    def line(
+        self, group: tuple[Any, ...], truths: Sequence[Sequence[float]],
+        durations: Sequence[float], settings: Binning,
+    ) -> ChanceLine:  # fmt: skip
+        """Return the line of no discrimination of a group."""
+        told = (tuple(map(tuple, truths)), tuple(durations), settings.hit_window_s)
+        key = (*group, *told, settings.chance_trajectories)
+        if key not in self._lines:
+            seed, corpus, *names = group
+            rng = stream(seed, corpus, "chance", *names)
+            self._lines[key] = chance_of(truths, durations, settings, rng)
+        return self._lines[key]
+
+
 def hit_rates(
     corpus: str, binning: pd.DataFrame, truths: Truths,
-    settings: Binning, seed: int, parts: bool = True,
+    settings: Binning, seed: int, parts: bool = True, drawn: Drawn | None = None,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:  # fmt: skip
     """Return the tables `hit_rates` and `chance_lines`.
 
     truths: (dataset, true order, recording) -> known boundaries in s. parts: signers and signs
-    apart, too.
+    apart, too. drawn: what other readings of the same groups have drawn, and this one adds.
     """
+    kept = Drawn() if drawn is None else drawn
     rate_rows, chance_rows = [], []
     for key, part in groups(binning[binning["dataset"] != RECORDED], parts):
         name = tuple(str(value) for value in key.values())
@@ -144,17 +185,16 @@ def hit_rates(
         durations = [r.duration_s for r in next(iter(rates.values()))]
         line = None
         if any(len(times) for times in known):
-            rng = stream(seed, corpus, "chance", *name)
-            line = chance_of(known, durations, settings, rng)
+            line = kept.line((seed, corpus, *name), known, durations, settings)
             chance_rows += [{"corpus": corpus, **key, **row} for row in _line_rows(line)]
         for order, of_order in rates.items():
-            rng = stream(seed, corpus, "bootstrap", *name, str(order))
+            weights = kept.weights((seed, corpus, *name, str(order)))
             rate_rows.append(
                 {
                     "corpus": corpus,
                     **key,
                     "order": order,
-                    **_rate_row(of_order, line, settings, rng),
+                    **_rate_row(of_order, line, settings, weights),
                     **_shifted_row(part[part["order"] == order]),
                 }
             )
@@ -169,11 +209,10 @@ def _whole(value: Any) -> int | None:
 
 
 def _rate_row(
-    rates: Sequence[HitRate], line: ChanceLine | None, settings: Binning,
-    rng: np.random.Generator,
+    rates: Sequence[HitRate], line: ChanceLine | None, settings: Binning, weights: Weights,
 ) -> dict[str, Any]:  # fmt: skip
     mean = group_rates(rates)
-    ratio = hpfpps(rates, rng, settings.bootstrap_draws)
+    ratio = hpfpps(rates, weights, settings.bootstrap_draws)
     finite = {
         name: value if np.isfinite(value) else None
         for name, value in (

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from signkin import tables
-from signkin.binning.hit_rate import group_rates, hpfpps
+from signkin.binning.hit_rate import group_rates, pooled_hpfpps
 from signkin.corpus import Corpus
 from signkin.studies.endres2013.posteriors import (
     FITTED,
@@ -82,7 +82,7 @@ def _rows(binning: pd.DataFrame) -> Iterator[dict[str, Any]]:
             }
             if order in rates:
                 mean = group_rates(rates[order])
-                ratio = hpfpps(rates[order], 0, draws=2).value  # the ratio itself alone
+                ratio = pooled_hpfpps(rates[order])
                 row |= {
                     "hit_rate": mean.hit_rate,
                     "hit_rate_se": mean.hit_rate_se,

@@ -15,6 +15,7 @@ from signkin.seeds import stream
 from signkin.segments import Part, score_methods
 from signkin.studies.naert2017.annotators import Signs, offsets, pair_rows, signs_of
 from signkin.studies.naert2017.annotators_refined import refined_agreement
+from signkin.studies.naert2017.sampling import sample
 from signkin.studies.naert2017.tagged import intervals_of
 
 FIRST = "the corpus's own"  # tags that all other analyses are made with
@@ -31,17 +32,19 @@ def agreement(
     sign_types: pd.DataFrame,
     window_s: float,
     seed: int,
+    most: int,
 ) -> dict[str, pd.DataFrame]:
     """Return the tables `annotator_agreement`, `annotator_offsets` and `annotator_refined`.
 
     folder: of the data. about, intervals, minima, sign_types: tables of these names (about:
-    `recordings`). window_s: of the paper's rule. Recordings that an annotator did not tag are
-    left out and told.
+    `recordings`). window_s: of the paper's rule. most: neighbouring signs of the recordings taken
+    (`sampling.sample`). Recordings that an annotator did not tag are left out and told.
     """
+    chosen = sample(corpus.name, about["recording"].astype(str), intervals, most, seed)
+    about = chosen.rows(about)
     rates = dict(zip(about["recording"].astype(str), about["rate_hz"], strict=True))
-    found: dict[str, Signs] = {
-        FIRST: {name: intervals_of(intervals, name, "sign") for name in rates}
-    }
+    tags, lows = tables.ByRecording(intervals), tables.ByRecording(minima)
+    found: dict[str, Signs] = {FIRST: {name: intervals_of(tags, name, "sign") for name in rates}}
     notes: list[str] = []
     for annotator in corpus.annotators:
         found[annotator], untold = signs_of(corpus, annotator, folder, rates)
@@ -49,14 +52,16 @@ def agreement(
     depth = f"prominence_{corpus.unit}_per_s"
     times = {}
     for name in rates:
+        own = lows[name]
         for hand in HANDS:
-            rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
+            rows = own[own["hand"] == hand]
             times[name, hand] = (rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
     made: dict[str, list[pd.DataFrame]] = {name: [] for name in NAMES}
     for one, other in combinations(found, 2):
         both = (one, other)
         signs = (found[one], found[other])
         told = "; ".join(note for note in notes if note.split(",")[0] in both)
+        told = "; ".join(filter(None, (told, chosen.note)))
         rng = stream(seed, corpus.name, *both, "agreement")
         made["annotator_agreement"].append(_scores(corpus.name, both, signs, told, rng))
         pairs = pair_rows(*signs, sign_types)

@@ -20,6 +20,7 @@ from signkin.coarticulation.duration import (
     SimpleDuration,
     SurfaceDuration,
     Transitions,
+    folded,
     predict_left_out,
     simple_weight,
 )
@@ -152,6 +153,7 @@ def models(
         for evaluation, members in groups.items():
             lead: dict[str, Any] = {"corpus": corpus, "model": name, "evaluation": evaluation}
             lead["n"] = len(learn.data)
+            folds = ""
             try:
                 if name in learn.absent:
                     raise SignkinError(learn.absent[name])
@@ -160,14 +162,15 @@ def models(
                 if members is None:
                     found = make().fit(learn.data).predict(learn.data)
                 else:
-                    found = predict_left_out(make, learn.data, members)
+                    held, folds = folded(members)
+                    found = predict_left_out(make, learn.data, held)
             except SignkinError as error:
                 reason = error.found
                 if evaluation == "leave_one_recording_out" and len(set(recordings)) < 2:
                     reason = "one recording only"
                 errors.append({**lead, "note": f"not testable: {reason}"})
                 continue
-            note = learn.note
+            note = joined(folds, learn.note)
             if name.startswith("SIMPLE") or name == "SURFACE_PRINTED":
                 note = joined(NOTHING_LEARNT, note)
             if name.startswith("SIMPLE") and not learn.geodesic:

@@ -13,6 +13,7 @@ from signkin.coarticulation.segmentation import EDGES
 from signkin.io.eaf import NewTier, elan_copy
 from signkin.joints import HANDS
 from signkin.stages.ingest import tags_of
+from signkin.tables import ByRecording
 
 
 def refined_copies(
@@ -31,19 +32,21 @@ def refined_copies(
     elan: whether the originals are ELAN files; else new ones are made of their tags.
     """
     out = {}
+    refined, tags = ByRecording(boundaries), ByRecording(intervals)
+    uncertain = None if posteriors is None else ByRecording(posteriors)
     for row in about.itertuples(index=False):
-        rows = boundaries[boundaries["recording"] == row.recording]
+        rows = refined[str(row.recording)]
         if rows.empty:
             continue
         tiers = [NewTier(f"signkin refined {hand}", _refined(rows, hand)) for hand in HANDS]
-        if posteriors is not None:
-            tiers += _posterior_tiers(posteriors[posteriors["recording"] == row.recording])
+        if uncertain is not None:
+            tiers += _posterior_tiers(uncertain[str(row.recording)])
         out[f"{row.recording}.eaf"] = elan_copy(
             folder / str(row.annotation_file),
             tiers,
             elan=elan,
             clock_offset_s=float(row.clock_offset_s),
-            tags=tags_of(intervals, str(row.recording)),
+            tags=tags_of(tags, str(row.recording)),
             media_url=str(row.motion_file),
         )
     return out

@@ -135,7 +135,7 @@ class Take:
         cls,
         corpus: Corpus,
         recording: Recording,
-        intervals: pd.DataFrame,
+        intervals: pd.DataFrame | tables.ByRecording,
         types: list[str],
         settings: GridSettings,
     ) -> Take:
@@ -164,13 +164,13 @@ def takes_of(
     settings: GridSettings,
 ) -> Iterator[Take]:
     """Yield the tagged recordings of a corpus; arguments as those of `claim_choices`."""
-    manual = between_manual(transitions)
+    manual, tags = tables.ByRecording(between_manual(transitions)), tables.ByRecording(intervals)
     signed = set(intervals.loc[intervals["role"] == "sign", "recording"])
     used = signed - set(excluded["recording"])
     for recording in recordings:
         if recording.name in used:
-            types = manual.loc[manual["recording"] == recording.name, "type"].tolist()
-            yield Take.of(corpus, recording, intervals, types, settings)
+            types = manual[recording.name]["type"].tolist()
+            yield Take.of(corpus, recording, tags, types, settings)
 
 
 def claim_choices(
@@ -181,11 +181,12 @@ def claim_choices(
     excluded: pd.DataFrame,
     settings: GridSettings,
     seed: int,
+    note: str = "",
 ) -> pd.DataFrame:
     """Return the table `claim_choices` of a corpus.
 
     transitions: the pipeline's table, which has the types and the manual transitions.
-    excluded: the table of recordings that are left out.
+    excluded: the table of recordings that are left out. note: what every row tells.
     """
     grid = settings.choices
     gathered: dict[Setting, Gathered] = defaultdict(Gathered)
@@ -204,6 +205,8 @@ def claim_choices(
     frame = pd.DataFrame(rows).reindex(columns=tables.TABLES["claim_choices"].names())
     for column in ("segmentation", "hand", "outliers", "null", "note"):
         frame[column] = frame[column].fillna("")
+    if note:
+        frame["note"] = [f"{told}; {note}" if told else note for told in frame["note"]]
     return frame.sort_values("claim", kind="stable", ignore_index=True)
 
 

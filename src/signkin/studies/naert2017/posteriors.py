@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from signkin.annotation import Interval
 from signkin.coarticulation import (
     TagModel,
     learn_tag_model,
@@ -17,8 +21,52 @@ from signkin.coarticulation.segmentation import EDGES
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.studies.naert2017.tagged import intervals_of, together, with_lead
+from signkin.tables import ByRecording, rows_of
 
 NOT_LEARNT = "too few tags or no minima to learn from: bias and jitter are assumed"
+
+
+Given = tuple[np.ndarray, np.ndarray, np.ndarray]  # tags (N, 2), minima (M,), their depths
+
+
+def tag_models(
+    corpus: Corpus,
+    names: Iterable[str],
+    intervals: pd.DataFrame,
+    minima: pd.DataFrame,
+    sign_types: pd.DataFrame,
+    cutoff_hz: float,
+) -> dict[str, TagModel]:
+    """Return how tags and minima of each hand lie about boundaries, learnt from recordings.
+
+    names: of the recordings. intervals, minima, sign_types: tables of these names. cutoff_hz: of
+    the low-pass that speeds have gone through.
+    """
+    start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
+    signs, given, acts = _given(corpus, names, intervals, minima, sign_types)
+    return {
+        hand: learn_tag_model(
+            [given[hand, name] for name in signs], start, acts=[acts[hand, name] for name in signs]
+        )
+        for hand in HANDS
+    }
+
+
+def models_text(models: Mapping[str, TagModel]) -> str:
+    """Return models as JSON, every digit kept."""
+    return json.dumps({hand: asdict(model) for hand, model in models.items()}, indent=1) + "\n"
+
+
+def models_of(text: str) -> dict[str, TagModel]:
+    """Return the models of a text that `models_text` wrote."""
+
+    def model(told: dict[str, Any]) -> TagModel:
+        fields: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value for name, value in told.items()
+        }
+        return TagModel(**fields)
+
+    return {hand: model(told) for hand, told in json.loads(text).items()}
 
 
 def boundary_posteriors(
@@ -27,35 +75,51 @@ def boundary_posteriors(
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
     sign_types: pd.DataFrame,
-    cutoff_hz: float,
+    models: Mapping[str, TagModel],
 ) -> pd.DataFrame:
-    """Return the table `boundary_posteriors`; the jitter is learnt from all recordings of a hand.
-
-    names: of the recordings. intervals, minima, sign_types: tables of these names. cutoff_hz: of
-    the low-pass that speeds have gone through.
-    """
-    start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
-    depth = f"prominence_{corpus.unit}_per_s"
+    """Return the table `boundary_posteriors` of some recordings; models: of `tag_models`."""
+    signs, given, acts = _given(corpus, names, intervals, minima, sign_types)
     parts = []
-    signs = {name: intervals_of(intervals, name, "sign") for name in names}
     for hand in HANDS:
-        acts = {name: acting(corpus, sign_types, name, hand, len(signs[name])) for name in signs}
-        sets = {}
+        model = models[hand]
+        learnt = model != TagModel(most_outward_s=model.most_outward_s)
         for name, tags in signs.items():
-            rows = minima[(minima["recording"] == name) & (minima["hand"] == hand)]
-            times = np.array([(s.start_s, s.end_s) for s in tags]).reshape(-1, 2)
-            sets[name] = (times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
-        model = learn_tag_model(list(sets.values()), start, acts=list(acts.values()))
-        for name, tags in signs.items():
-            rows = _rows(hand, [s.label for s in tags], sets[name], acts[name], model)
-            if model == start:
+            labels = [s.label for s in tags]
+            rows = _rows(hand, labels, given[hand, name], acts[hand, name], model)
+            if not learnt:
                 rows["note"] = [f"{n}; {NOT_LEARNT}" if n else NOT_LEARNT for n in rows["note"]]
             parts.append(with_lead(corpus, name, rows))
     return together(parts, "boundary_posteriors", corpus.unit)
 
 
+def _given(
+    corpus: Corpus,
+    names: Iterable[str],
+    intervals: pd.DataFrame,
+    minima: pd.DataFrame,
+    sign_types: pd.DataFrame,
+) -> tuple[
+    dict[str, list[Interval]], dict[tuple[str, str], Given], dict[tuple[str, str], np.ndarray]
+]:
+    """Return signs by recording; tags with minima, and where a hand acts, by hand and recording."""
+    depth = f"prominence_{corpus.unit}_per_s"
+    given, acts = {}, {}
+    tags_by, lows, types = map(ByRecording, (intervals, minima, sign_types))
+    signs = {name: intervals_of(tags_by, name, "sign") for name in names}
+    for name, tags in signs.items():
+        times = np.array([(s.start_s, s.end_s) for s in tags]).reshape(-1, 2)
+        own = lows[name]
+        for hand in HANDS:
+            rows = own[own["hand"] == hand]
+            given[hand, name] = (
+                times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float)
+            )  # fmt: skip
+            acts[hand, name] = acting(corpus, types, name, hand, len(tags))
+    return signs, given, acts
+
+
 def acting(
-    corpus: Corpus, sign_types: pd.DataFrame, recording: str, hand: str, signs: int
+    corpus: Corpus, sign_types: pd.DataFrame | ByRecording, recording: str, hand: str, signs: int
 ) -> np.ndarray:
     """Return whether the hand acts in each sign of a recording, (N,), by the signs' types.
 
@@ -65,7 +129,7 @@ def acting(
     acts = np.ones(signs, dtype=bool)
     if hand == corpus.dominant_hand(corpus.by_name[recording]):
         return acts
-    rows = sign_types[sign_types["recording"] == recording]
+    rows = rows_of(sign_types, recording)
     one_handed = rows[rows["type"].str.match("[02]")]
     acts[one_handed["sign"].to_numpy(dtype=int) - 1] = False
     return acts

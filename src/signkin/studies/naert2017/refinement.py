@@ -16,7 +16,9 @@ from signkin.coarticulation.segmentation import (
 from signkin.corpus import Corpus
 from signkin.joints import HANDS
 from signkin.settings.sections import Refinement
+from signkin.studies.naert2017.sampling import Sample
 from signkin.studies.naert2017.tagged import intervals_of, together, with_lead
+from signkin.tables import ByRecording
 
 
 def boundaries(
@@ -28,9 +30,10 @@ def boundaries(
 ) -> pd.DataFrame:
     """Return the table `boundaries` of some recordings."""
     parts = []
+    tags, lows = ByRecording(intervals), ByRecording(minima)
     for name in names:
-        signs = intervals_of(intervals, name, "sign")
-        of_recording = minima[minima["recording"] == name]
+        signs = intervals_of(tags, name, "sign")
+        of_recording = lows[name]
         times = {
             hand: of_recording.loc[of_recording["hand"] == hand, "minimum_s"].to_numpy(dtype=float)
             for hand in HANDS
@@ -48,25 +51,30 @@ def refinement(
     bounds: pd.DataFrame,
     settings: Refinement,
     seed: int,
+    chosen: Sample,
 ) -> tuple[pd.DataFrame, dict[str, np.ndarray]]:
     """Return the table `refinement`, and all chance distances (draws, tags) of each hand.
 
-    about: the table `recordings`. bounds: the table `boundaries`.
+    about: the table `recordings`. bounds: the table `boundaries`. chosen: the recordings that
+    chance is drawn in.
     """
     chance = {}
     rates = about.set_index("recording")["rate_hz"]
-    for name in dict.fromkeys(bounds["recording"]):
-        signs = intervals_of(intervals, name, "sign")
+    tags, lows = ByRecording(intervals), ByRecording(minima)
+    for name in chosen.names:
+        signs = intervals_of(tags, name, "sign")
+        of_recording = lows[name]
         for hand in HANDS:
-            chosen = (minima["recording"] == name) & (minima["hand"] == hand)
+            own = of_recording["hand"] == hand
             chance[(name, hand)] = chance_distances(
                 signs,
-                minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                of_recording.loc[own, "minimum_s"].to_numpy(dtype=float),
                 float(rates[name]),
                 settings.draws,
                 seeds.stream(seed, corpus.name, name, hand, "chance"),
             )
     rows = refinement_quality(bounds, chance, settings.search_window_s, settings.tolerance_s)
+    rows = chosen.told(rows, rows["chance"].notna())
     rows.insert(0, "corpus", corpus.name)
     pooled = {
         hand: np.concatenate([d for (_, h), d in chance.items() if h == hand], axis=1)

@@ -113,7 +113,7 @@ def _views(source: Source) -> Iterator[tuple[str, View]]:
         yield from ((chapter, view) for view in attempted(f"Below {exhibit.title}", below))
     made = partial(synthesis_report.views, source.folder, source.corpus.unit)
     yield from (("truth", view) for view in attempted("Made against captured", made))
-    if source.corpus.simulator:
+    if source.corpus.made_by_run:  # others have no known truth
         yield from _simulation(source)
 
 

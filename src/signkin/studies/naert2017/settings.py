@@ -11,6 +11,7 @@ from signkin.settings.sections import (
     Kinematics,
     NaertChoices,
     Refinement,
+    Samples,
     SignTypes,
     Synthesis,
     Transitions,
@@ -40,6 +41,7 @@ class TableSettings(Sections):
     kinematics: Kinematics
     refinement: Refinement
     transitions: Transitions
+    samples: Samples
 
 
 class FigureSettings(Sections):
@@ -47,6 +49,7 @@ class FigureSettings(Sections):
 
     kinematics: Kinematics
     transitions: Transitions
+    samples: Samples
 
 
 class DurationSettings(Sections):
@@ -63,6 +66,7 @@ class SynthesisSettings(Sections):
     transitions: Transitions
     durations: Durations
     synthesis: Synthesis
+    samples: Samples
 
 
 class GridSettings(Sections):
@@ -71,6 +75,7 @@ class GridSettings(Sections):
     kinematics: Kinematics
     refinement: Refinement
     transitions: Transitions
+    samples: Samples
     choices: NaertChoices
 
     @classmethod

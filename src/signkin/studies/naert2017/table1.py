@@ -10,6 +10,7 @@ from signkin import tables
 from signkin.corpus import Corpus
 from signkin.stages.ingest import lead
 from signkin.studies.naert2017.tagged import intervals_of
+from signkin.tables import ByRecording
 
 
 def table1(corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame) -> pd.DataFrame:
@@ -19,13 +20,14 @@ def table1(corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame) ->
     utterance rule that the transitions follow.
     """
     rows = []
+    types, tags = ByRecording(sign_types), ByRecording(intervals)
     for name in dict.fromkeys(sign_types["recording"]):
-        signs = sign_types[sign_types["recording"] == name]
+        signs = types[name]
         role = next((r for r in ("utterance", "translation") if r in corpus.tiers), None)
         translations = (
-            intervals_of(intervals, name, "translation") if "translation" in corpus.tiers else []
+            intervals_of(tags, name, "translation") if "translation" in corpus.tiers else []
         )
-        for number, start, end, chosen in _stretches(name, signs, intervals, role):
+        for number, start, end, chosen in _stretches(name, signs, tags, role):
             middle = (start + end) / 2
             text = [t.label for t in translations if t.start_s <= middle < t.end_s]
             rows.append(
@@ -43,7 +45,7 @@ def table1(corpus: Corpus, intervals: pd.DataFrame, sign_types: pd.DataFrame) ->
 
 
 def _stretches(
-    name: str, signs: pd.DataFrame, intervals: pd.DataFrame, role: str | None
+    name: str, signs: pd.DataFrame, intervals: ByRecording, role: str | None
 ) -> Iterator[tuple[str, float, float, pd.DataFrame]]:
     """Yield (utterance, start, end, its signs)."""
     if role is None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import pandas as pd
 
@@ -13,7 +11,9 @@ from signkin.errors import SignkinError
 from signkin.settings.sections import Refinement
 from signkin.statistics import nulls
 from signkin.statistics.multiplicity import holm_of
+from signkin.studies.naert2017.sampling import Sample
 from signkin.studies.naert2017.tagged import hands_tagged, signs_of_hand
+from signkin.tables import ByRecording
 
 ALL, TRANSITION = "all", "transition"
 
@@ -23,34 +23,34 @@ def tag_chance(
     about: pd.DataFrame,
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
-    names: Iterable[str],
+    chosen: Sample,
     settings: Refinement,
     seed: int,
 ) -> pd.DataFrame:
     """Return the table `tag_chance`: manual tags of a corpus against each null, by hand.
 
     Each hand's tags against its own minima: a tier of one hand alone tells nothing of the other.
-    about: the table `recordings`. names: of the recordings with tags, in their order.
+    about: the table `recordings`. chosen: recordings with tags, in their order.
     """
     rates = about.set_index("recording")["rate_hz"]
     windows = sorted({*nulls.WINDOWS_S, settings.search_window_s})
-    signed = list(names)
     parts = []
+    by_recording, lows = ByRecording(intervals), ByRecording(minima)
     for hand in hands_tagged(corpus):
         found: list[nulls.Stretch] = []
-        for name in signed:
-            signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, intervals, name, hand)]
-            chosen = (minima["recording"] == name) & (minima["hand"] == hand)
+        for name in chosen.names:
+            signs = [(s.start_s, s.end_s) for s in signs_of_hand(corpus, by_recording, name, hand)]
+            own = lows[name]
             found += nulls.stretches(
                 np.array(signs).reshape(-1, 2),
-                minima.loc[chosen, "minimum_s"].to_numpy(dtype=float),
+                own.loc[own["hand"] == hand, "minimum_s"].to_numpy(dtype=float),
                 float(rates[name]),
                 margin_s=windows[-1],
             )
         for tags in (ALL, TRANSITION):
             rng = seeds.stream(seed, corpus.name, hand, tags, "tag_chance")
             parts.append(_rows(found, tags, windows, settings, rng).assign(hand=hand))
-    out = pd.concat(parts, ignore_index=True).assign(corpus=corpus.name)
+    out = chosen.told(pd.concat(parts, ignore_index=True)).assign(corpus=corpus.name)
     one = (out["measure"] == nulls.MEAN_SHARE) & out["p"].notna()
     out.loc[one, "p_holm"] = holm_of(out.loc[one, "p"].to_numpy(dtype=float))
     return out.reindex(columns=tables.TABLES["tag_chance"].names())

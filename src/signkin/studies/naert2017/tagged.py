@@ -19,11 +19,15 @@ from signkin.kinematics.rotations import parent_relative
 from signkin.recording import Recording
 from signkin.settings.sections import Lowpass
 from signkin.stages.ingest import lead
+from signkin.tables import ByRecording, rows_of
 
 
-def intervals_of(intervals: pd.DataFrame, recording: str, role: str) -> list[Interval]:
+def intervals_of(
+    intervals: pd.DataFrame | ByRecording, recording: str, role: str
+) -> list[Interval]:
     """Return the intervals of one role of a recording, in order of start."""
-    rows = intervals[(intervals["recording"] == recording) & (intervals["role"] == role)]
+    rows = rows_of(intervals, recording)
+    rows = rows[rows["role"] == role]
     return sorted(
         Interval(float(r.start_s), float(r.end_s), str(r.label), str(r.tier))
         for r in rows.itertuples(index=False)
@@ -42,7 +46,7 @@ def hands_tagged(corpus: Corpus) -> tuple[str, ...]:
 
 
 def signs_of_hand(
-    corpus: Corpus, intervals: pd.DataFrame, recording: str, hand: str
+    corpus: Corpus, intervals: pd.DataFrame | ByRecording, recording: str, hand: str
 ) -> list[Interval]:
     """Return the signs of a recording but those of the other hand's own tier."""
     other = next(name for name in HANDS if name != hand)
@@ -57,7 +61,7 @@ def kept(about: pd.DataFrame, excluded: pd.DataFrame) -> list[str]:
 
 
 def utterances_of(
-    corpus: Corpus, intervals: pd.DataFrame, name: str, signs: list[Interval]
+    corpus: Corpus, intervals: pd.DataFrame | ByRecording, name: str, signs: list[Interval]
 ) -> list[str]:
     """Return the utterance of each sign of a recording, by the corpus's own rule."""
     if "utterance" in corpus.tiers:

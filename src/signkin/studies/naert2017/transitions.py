@@ -26,6 +26,7 @@ from signkin.studies.naert2017.tagged import (
     utterances_of,
     with_lead,
 )
+from signkin.tables import ByRecording
 
 
 def transitions(
@@ -43,17 +44,18 @@ def transitions(
     """
     frames = {str(name): part for name, part in wrist_frames.groupby("recording", sort=False)}
     rule = TypeRule(**dict(settings.sign_types))
+    tags_by, bounds = ByRecording(intervals), ByRecording(refined)
     types, moves, speeds = [], [], []
     for recording in recordings:
         if recording.name not in frames:
             continue
-        signs = intervals_of(intervals, recording.name, "sign")
-        utterances = utterances_of(corpus, intervals, recording.name, signs)
+        signs = intervals_of(tags_by, recording.name, "sign")
+        utterances = utterances_of(corpus, tags_by, recording.name, signs)
         filled = filled_recording(recording, settings.kinematics.longest_gap_s)
         wrists = _wrists(filled, frames[recording.name], settings.kinematics.lowpass)
         kinds = sign_type_rows(signs, utterances, wrists, corpus.lexicon, rule)
         orientations = turns_of(filled, settings.transitions.geodesic_frame)
-        tags = {hand: _tags(refined, recording.name, hand) for hand in HANDS}
+        tags = {hand: _tags(bounds[recording.name], hand) for hand in HANDS}
         rows = transition_rows(filled, orientations, signs, utterances, kinds, tags)
         kinds.insert(4, "utterance", utterances)
         types.append(with_lead(corpus, recording.name, kinds))
@@ -102,8 +104,8 @@ def _arm_length(recording: Recording) -> float | None:
     return float(np.nanmedian(length))
 
 
-def _tags(refined: pd.DataFrame, recording: str, hand: str) -> np.ndarray:
-    rows = refined[(refined["recording"] == recording) & (refined["hand"] == hand)]
+def _tags(refined: pd.DataFrame, hand: str) -> np.ndarray:
+    rows = refined[refined["hand"] == hand]
     return rows["refined_s"].to_numpy(dtype=float).reshape(-1, 2)
 
 

@@ -126,8 +126,13 @@ def example_frames(
     That is the longest recording that was binned and has kinematics. about: table `recordings`.
     posteriors: table `wrist_posteriors`.
     """
-    frames = pd.concat(pd.read_parquet(path) for path in paths)
-    usable = set(posteriors["recording"]) & set(frames["recording"])
+    # All shards' kinematics at once are more than memory should hold.
+    place = {
+        name: path
+        for path in paths
+        for name in pd.read_parquet(path, columns=["recording"])["recording"].unique()
+    }
+    usable = set(posteriors["recording"]) & set(place)
     there = about[about["recording"].isin(usable)]
     if there.empty:
         raise SignkinError(
@@ -136,7 +141,7 @@ def example_frames(
             expected="one or more; wrists_left_out.csv and excluded.csv tell why not",
         )
     longest = str(there.loc[there["duration_s"].idxmax(), "recording"])
-    return frames[frames["recording"] == longest]
+    return pd.read_parquet(place[longest], filters=[("recording", "==", longest)])
 
 
 def caption(frame: pd.DataFrame, recording: str, continuous: Continuous, window_s: float) -> str:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from signkin import tables
 from signkin.binning import Posterior, fit_many
-from signkin.binning.posterior import CLEARANCE_BINS
+from signkin.binning.maxima import CLEARANCE_BINS
 from signkin.corpus import Corpus
 from signkin.errors import SignkinError
 from signkin.joints import HANDS

@@ -24,6 +24,7 @@ from signkin.studies.naert2017.figures import (
     fig10_hands,
 )
 from signkin.studies.naert2017.figures.notice import notice
+from signkin.studies.naert2017.sampling import sample
 from signkin.studies.naert2017.settings import FigureSettings
 from signkin.studies.naert2017.transitions import counted
 
@@ -45,12 +46,16 @@ class Measured:
     frames: Sequence[Path]
     published: pd.DataFrame
     settings: FigureSettings
+    seed: int
 
     @cached_property
     def excerpts(self) -> dict[str, Excerpt]:
         """Which stretch of which recording Fig. 4, 5 and 6 show."""
         named = self.corpus.settings.get("examples", {})
-        return choose_excerpts(self.boundaries, self.sign_types, named)
+        used = self.settings.samples.transitions
+        signs = self.sign_types.assign(role="sign")
+        chosen = sample(self.corpus.name, self.boundaries["recording"], signs, used, self.seed)
+        return choose_excerpts(chosen.rows(self.boundaries), chosen.rows(self.sign_types), named)
 
     @cached_property
     def distances(self) -> tuple[pd.DataFrame, Diamond | None]:

@@ -20,9 +20,10 @@ from signkin.coarticulation.sign_speeds import mean_speeds, step_speeds
 from signkin.coarticulation.synthesis import Sign
 from signkin.coarticulation.transitions import SAME_INSTANT_S
 from signkin.corpus import Corpus
-from signkin.io.store import read_recordings
+from signkin.io.store import read_recordings, recording_names
 from signkin.recording import Recording
 from signkin.settings.sections import Lowpass
+from signkin.studies.naert2017.sampling import Sample, sample
 from signkin.studies.naert2017.settings import SynthesisSettings
 from signkin.studies.naert2017.synthesis.found import found_signs
 from signkin.studies.naert2017.synthesis.stock import Place, placed
@@ -155,13 +156,14 @@ def database(
     """Gather the tagged signs of a corpus; short gaps filled, all takes at one place."""
     takes: dict[str, Recording] = {}
     tokens: list[Token] = []
+    tags = tables.ByRecording(intervals)
     for recording in recordings:
         filled = filled_recording(recording, settings.kinematics.longest_gap_s)
         if settings.synthesis.align_takes and takes:
             filled = placed(filled, Place.of(next(iter(takes.values()))))
         takes[filled.name] = filled
-        signs = intervals_of(intervals, filled.name, "sign")
-        names = utterances_of(corpus, intervals, filled.name, signs) if signs else []
+        signs = intervals_of(tags, filled.name, "sign")
+        names = utterances_of(corpus, tags, filled.name, signs) if signs else []
         tokens += [
             Token(Sign(recording=filled, gloss=s.label, start_s=s.start_s, end_s=s.end_s), n, name)
             for n, (s, name) in enumerate(zip(signs, names, strict=True), start=1)
@@ -216,13 +218,17 @@ def load_database(
     intervals: str | Path,
     excluded: str | Path,
     settings: SynthesisSettings,
-) -> tuple[Database, pd.DataFrame]:
-    """Read canonical recordings and tags, those left out aside; returns as `sign_database`."""
+    seed: int,
+    glosses: Iterable[str] = (),
+) -> tuple[Database, pd.DataFrame, Sample]:
+    """Read canonical recordings and tags, those left out aside; returns as `sign_database`.
+
+    Of a large corpus a sample is taken, which is returned as well, with a recording of each of
+    the glosses in it.
+    """
     without = set(tables.read_table(excluded, "excluded")["recording"])
-    takes = [take for file in files for take in read_recordings(Path(file))]
-    return sign_database(
-        corpus,
-        [take for take in takes if take.name not in without],
-        tables.read_table(intervals, "intervals"),
-        settings,
-    )
+    names = [name for file in files for name in recording_names(Path(file)) if name not in without]
+    tags = tables.read_table(intervals, "intervals")
+    chosen = sample(corpus.name, names, tags, settings.samples.transitions, seed, glosses)
+    takes = [take for file in files for take in read_recordings(Path(file), chosen.names)]
+    return *sign_database(corpus, takes, tags, settings), chosen

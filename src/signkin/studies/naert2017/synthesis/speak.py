@@ -61,7 +61,15 @@ def speak(
     plan = _plan(corpus, changes, root, config)
     settings = SynthesisSettings.of(plan.settings)
     files = prerequisites(corpus, changes, root, config)
-    base, _ = load_database(plan.corpora[corpus], files[:-2], files[-2], files[-1], settings)
+    base, _, _ = load_database(
+        plan.corpora[corpus],
+        files[:-2],
+        files[-2],
+        files[-1],
+        settings,
+        plan.settings.seed,
+        glosses,
+    )
     name = name or name_of(glosses)
     out = RESULTS / "naert2017" / corpus / "synthesis"
     parts = utterance_files(
