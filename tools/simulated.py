@@ -17,8 +17,11 @@ ROOT = Path(__file__).resolve().parents[1]
 SETTINGS = shipped()
 
 
-def simulate_lsf(seed: int = SETTINGS.seed) -> lsf.SimulatedCorpus:
-    """Simulate lsf-sim from the printed tables of Naert et al. 2017."""
+def simulate_lsf(seed: int = SETTINGS.seed, parts: int | None = None) -> lsf.SimulatedCorpus:
+    """Simulate lsf-sim from the printed tables of Naert et al. 2017.
+
+    parts: into how many recordings the design is cut, of which lsf-sim's are made; None: as many.
+    """
     text = {"dtype": str, "keep_default_na": False}
     printed = ROOT / "papers" / "naert2017"
     constants = pd.read_csv(printed / "constants.csv", **text).set_index("name")["value"]
@@ -31,6 +34,7 @@ def simulate_lsf(seed: int = SETTINGS.seed) -> lsf.SimulatedCorpus:
         mean_error_s=float(constants["mean_error"]),
         euclidean_unit_m=SETTINGS.transitions.euclidean_unit_m,
         rng=seeds.stream(seed, corpus.name),
+        parts=parts,
     )
 
 

@@ -29,6 +29,8 @@ from signkin.errors import SignkinError
 from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
+# Times, classes of depth, and rests (M, 2) where they are known.
+Minima = tuple[Floats, NDArray[np.int64], Floats | None]
 OFF_S = 0.1  # a tag further than this from its boundary is off
 NO_MINIMUM = "this hand has no speed minimum: the tag's own uncertainty"
 FEW = f"fewer than {FEWEST} tags: the model is as given, not learnt"
@@ -67,6 +69,7 @@ def refine_posterior(
     minima_s: ArrayLike,
     prominence: ArrayLike | None = None,
     *,
+    rests_s: ArrayLike | None = None,
     acts: ArrayLike | None = None,
     model: TagModel | None = None,
     evidence: ArrayLike | None = None,
@@ -75,8 +78,10 @@ def refine_posterior(
     """Return the posterior of each boundary of one hand in one recording.
 
     intervals_s: (N, 2) manual starts and ends of signs, s. minima_s: (M,) minima of the hand's
-    speed. prominence: (M,) their depth, any unit; without, all count alike. acts: (N,) whether
-    the hand does anything in the sign; tags of a sign in which it does not teach nothing of jitter.
+    speed. prominence: (M,) their depth, any unit; without, all count alike. rests_s: (M, 2), where
+    the hand rests near each, and the SD of that, as `signkin.kinematics.rest_times` finds both
+    (as columns); without, minima are all that is known. acts: (N,) whether the hand does anything
+    in the sign; tags of a sign in which it does not teach nothing of jitter.
     model: as `learn_tag_model` returns it, for several recordings or two annotators; None: learnt
     from this recording. evidence: (F,), another probability of a boundary in each frame (as
     binning gives it), `evidence_rate_hz` frames a second from 0 s. It counts as independent of the
@@ -86,15 +91,15 @@ def refine_posterior(
     minimum the posterior is what is known of the tag alone, in order. Raises SignkinError for
     minima without a time and for arrays that do not fit.
     """
-    tags, minima, depth = _checked(intervals_s, minima_s, prominence)
-    notes = _notes(tags, len(minima))
+    tags, found_minima = _checked(intervals_s, minima_s, prominence, rests_s)
+    notes = _notes(tags, len(found_minima[0]))
     usable = np.array([BACKWARDS not in n and UNTIMED not in n for n in notes.ravel()], dtype=bool)
     usable = usable.reshape(tags.shape)
     given = TagModel() if model is None else model
     if not usable.any():
         return _nothing(tags, notes, given)
     times, edge, idle, boundary_of = _boundaries(tags, usable, acts)
-    tagged = Tagged(times, edge, idle, minima, depth)
+    tagged = _tagged(times, edge, idle, found_minima)
     if evidence is not None:
         tagged = replace(tagged, evidence=_evidence(tagged, evidence, evidence_rate_hz))
     if model is None:
@@ -120,23 +125,25 @@ def learn_tag_model(
     recordings: Sequence[tuple[ArrayLike, ArrayLike, ArrayLike | None]],
     model: TagModel | None = None,
     *,
+    rests_s: Sequence[ArrayLike] | None = None,
     acts: Sequence[ArrayLike] | None = None,
     jitter_known: bool = False,
 ) -> TagModel:
     """Learn how tags and minima of one hand lie about boundaries, from several recordings.
 
     recordings: (intervals_s, minima_s, prominence) of each, as `refine_posterior` has them.
-    acts: (N,) of each recording, as there. model: where to start; what is not learnt stays (see
+    rests_s, acts: of each recording, as there. model: where to start; what is not learnt stays (see
     `TagModel`), the jitter too where it is known, as from two annotators (`jitter_between`).
     """
     sets = []
     for number, (intervals, minima_s, prominence) in enumerate(recordings):
-        tags, minima, depth = _checked(intervals, minima_s, prominence)
+        rests = None if rests_s is None else rests_s[number]
+        tags, found_minima = _checked(intervals, minima_s, prominence, rests)
         forward = np.repeat((tags[:, 1] > tags[:, 0])[:, None], 2, axis=1)
         if forward.any():
             acting = None if acts is None else acts[number]
             times, edge, idle, _ = _boundaries(tags, forward, acting)
-            sets.append(Tagged(times, edge, idle, minima, depth))
+            sets.append(_tagged(times, edge, idle, found_minima))
     return learnt(sets, TagModel() if model is None else model, jitter_known=jitter_known)
 
 
@@ -174,9 +181,12 @@ def quantiles(p: Floats, grid_s: Floats, levels: Sequence[float], step_s: float)
 
 
 def _checked(
-    intervals_s: ArrayLike, minima_s: ArrayLike, prominence: ArrayLike | None
-) -> tuple[Floats, Floats, NDArray[np.int64]]:
-    """Return tags (N, 2), NaN where masked, minima in order and their classes of depth."""
+    intervals_s: ArrayLike,
+    minima_s: ArrayLike,
+    prominence: ArrayLike | None,
+    rests_s: ArrayLike | None,
+) -> tuple[Floats, Minima]:
+    """Return tags (N, 2), NaN where masked, and minima in order."""
     given: Floats = unmasked(intervals_s)
     tags = given.reshape(-1, 2)
     minima = np.asarray(minima_s, dtype=float).ravel()
@@ -189,7 +199,22 @@ def _checked(
     order = np.argsort(minima, kind="stable")
     minima, depth = minima[order], depth[order]
     cuts = np.quantile(depth, np.arange(1, DEPTHS) / DEPTHS) if len(depth) else np.empty(0)
-    return tags, minima, np.searchsorted(cuts, depth)
+    classes = np.searchsorted(cuts, depth)
+    if rests_s is None:
+        return tags, (minima, classes, None)
+    rests = np.asarray(rests_s, dtype=float)
+    if rests.shape != (len(minima), 2):
+        raise _error(f"rests of shape {rests.shape}", f"({len(minima)}, 2), one a minimum")
+    if not (np.isfinite(rests).all() and (rests[:, 1] > 0).all()):
+        raise _error("rests without a time, or whose SD is not above 0", "numbers")
+    return tags, (minima, classes, rests[order])
+
+
+def _tagged(times: Floats, edge: Floats, idle: Floats, minima: Minima) -> Tagged:
+    at, classes, rests = minima
+    if rests is None:
+        return Tagged(times, edge, idle, at, classes)
+    return Tagged(times, edge, idle, at, classes, rest_s=rests[:, 0], rest_sd_s=rests[:, 1])
 
 
 def _boundaries(

@@ -5,8 +5,9 @@ probability, by a gross error. A boundary shows as a minimum of speed near it wi
 (`detection`); all other minima are a Poisson process (`clutter_per_s`). Where boundaries and
 others differ in the depth of their minima, depth tells them apart. A minimum may belong to the
 boundary or not, and both are summed over, as trackers do it (probabilistic data association,
-Bar-Shalom & Tse 1975). A low-pass moves minima to the slower side, so those of starts and of ends
-may lie outward of their boundaries, or inward, by the same (`outward_s`).
+Bar-Shalom & Tse 1975). A low-pass moves minima to the slower side. Where the hand rests near them
+is known (`signkin.kinematics.rest_times`), that counts in their place; else those of starts and of
+ends may lie outward of their boundaries, or inward, by the same (`outward_s`).
 """
 
 from __future__ import annotations
@@ -38,21 +39,25 @@ class TagModel:
     """How tags and minima lie about boundaries; times in seconds.
 
     bias_s: boundary minus tag, of starts and of ends. sd_s: SD of the jitter. gross: share of
-    tags with a gross error, whose SD is gross_sd_s. minimum_sd_s: SD of a minimum about where its
-    boundary puts it, of starts and of ends; only its sum with sd_s shows in the data, so it is
-    assumed (from simulated signing), not learnt.
-    outward_s: so much before a start, and after an end, its minimum lies (inward: negative). By
-    how much starts and ends lead alike does not show whether tags or minima are off; taken as the
-    minima's, up to most_outward_s, which is what a low-pass at 6 Hz can do.
+    tags with a gross error, whose SD is gross_sd_s.
+    shape_sd_s: SD of a rest's error beyond its own SD, since strokes are not quite polynomials.
+    Only its sum with sd_s shows in the data, so it is assumed (from simulated signing).
     detection: probability that a boundary has a minimum. idle_detection: the same of signs in
     which the hand does nothing. clutter_per_s: other minima a second.
     depth_ratio: how much likelier each class of depth, shallow to deep, is for a boundary.
+
+    Where rests are not known: minimum_sd_s: SD of a minimum about where its boundary puts it, of
+    starts and of ends; assumed, too. outward_s: so much before a start, and after an end, its
+    minimum lies (inward: negative). By how much starts and ends lead alike does not show whether
+    tags or minima are off; taken as the minima's, up to most_outward_s, which is what a low-pass
+    at 6 Hz can do.
     """
 
     bias_s: tuple[float, float] = (0.0, 0.0)
     sd_s: float = 0.04
     gross: float = 0.05
     gross_sd_s: float = 0.15
+    shape_sd_s: float = 0.0015
     minimum_sd_s: tuple[float, float] = (0.0155, 0.013)
     outward_s: float = 0.0
     most_outward_s: float = 0.03
@@ -68,8 +73,9 @@ class Tagged:
 
     times_s: (K,), rising; edge (K,): 0 a start, 1 an end, between for both at one instant; idle
     (K,): 1 of a sign in which the hand does nothing, else 0.
-    minima_s (M,), rising; depth (M,) class of each. evidence: (K, W), what else is known, as a
-    factor.
+    minima_s (M,), rising; depth (M,) class of each. rest_s, rest_sd_s (M,): where the hand rests
+    near each, and the SD of that; None: not known, minima stand for it. evidence: (K, W), what
+    else is known, as a factor.
     """
 
     times_s: Floats
@@ -80,6 +86,8 @@ class Tagged:
     reach_s: float = REACH_S
     step_s: float = STEP_S
     evidence: Floats | None = None
+    rest_s: Floats | None = None
+    rest_sd_s: Floats | None = None
 
     @property
     def width(self) -> int:
@@ -130,6 +138,10 @@ def minima_about(tagged: Tagged) -> NDArray[np.int64]:
 
 def near_minima(tagged: Tagged, own: NDArray[np.int64], model: TagModel) -> Floats:
     """Return the density of each tag's minima about each time of its grid, (K, A, W); 0: none."""
+    if tagged.rest_s is not None and tagged.rest_sd_s is not None:
+        rest = np.append(tagged.rest_s, np.inf)[own]
+        sd = np.hypot(np.append(tagged.rest_sd_s, 1.0), model.shape_sd_s)[own]
+        return normal(rest[:, :, None] - tagged.grid_s[:, None], sd[:, :, None])
     usual = tagged.grid_s + model.outward_s * (2 * tagged.edge[:, None] - 1)
     away = np.append(tagged.minima_s, np.inf)[own][:, :, None] - usual[:, None]
     return normal(away, by_edge(model.minimum_sd_s, tagged.edge)[:, None, None])
@@ -171,12 +183,15 @@ def learnt(
 
     recordings: of one hand; those without a minimum teach nothing. model: where to start; its
     minimum_sd_s, gross_sd_s and the number of classes of depth stay. With fewer than FEWEST tags
-    it stays whole. In the end all spread of the minima about the tags counts as jitter: how much
-    of it is the minima's own does not show, and their errors can be opposite to the tag's, so
-    that jitter learnt as what is left over comes out too small. What starts and ends differ in
-    becomes outward_s, as far as it may. jitter_known: sd_s and gross stay.
+    it stays whole. jitter_known: sd_s and gross stay.
+
+    Where rests are not known, all spread of the minima about the tags counts as jitter in the end:
+    how much of it is the minima's own does not show, and their errors can be opposite to the
+    tag's, so that jitter learnt as what is left over comes out too small. What starts and ends
+    differ in becomes outward_s, as far as it may. Rests have neither trouble.
     """
     used = [r for r in recordings if len(r.minima_s) and len(r.times_s)]
+    rests = all(r.rest_s is not None for r in used)
     tags = sum(len(r.times_s) for r in used)
     acting = int(sum((1 - r.idle).sum() for r in used))
     if acting < FEWEST:
@@ -195,6 +210,8 @@ def learnt(
         if total["log"] - before < SETTLED * tags:
             break
         before = float(total["log"])
+    if rests:
+        return model
     start, end = model.bias_s
     outward = float(np.clip((end - start) / 2, -model.most_outward_s, model.most_outward_s))
     model = replace(model, outward_s=outward, bias_s=(start + outward, end - outward))

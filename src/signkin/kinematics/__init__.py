@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from signkin.kinematics.minima import speed_minima
     from signkin.kinematics.noise import Noise, measure_noise
     from signkin.kinematics.plausibility import check_recording
+    from signkin.kinematics.rests import rest_times
     from signkin.kinematics.rotations import parent_relative, with_limb_frames
     from signkin.velocities import integrate
 
@@ -29,6 +30,7 @@ __all__ = [
     "parent_relative",
     "resample",
     "response_db",
+    "rest_times",
     "speed",
     "speed_minima",
     "velocity",
@@ -46,6 +48,7 @@ _HOMES = {
     "parent_relative": "kinematics.rotations",
     "resample": "clock",
     "response_db": "kinematics.filters",
+    "rest_times": "kinematics.rests",
     "speed": "kinematics.derivatives",
     "speed_minima": "kinematics.minima",
     "velocity": "kinematics.derivatives",

@@ -11,7 +11,11 @@ from signkin.annotation import Interval
 from signkin.errors import SignkinError, listed
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas as pd
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
 
 DRAWS = 200
 EXAMPLES = """examples:
@@ -67,6 +71,7 @@ def _score(told: argparse.Namespace) -> int:
         segments, tier = _read(path, tier, told.format)
         sides.append(as_segments(segments))
         print(f"{word}: {path}, tier {tier}, {len(segments)} segments")
+    print("".join(f"{sentence}\n" for sentence in _beyond(*sides)), end="")
     table = score(sides[0], sides[1], rate_hz=told.rate, draws=told.draws, rng=2017)
     print(_printed(table))
     if told.out is not None:
@@ -94,6 +99,25 @@ def _read(path: Path, tier: str | None, form: str | None) -> tuple[tuple[Interva
     if not segments:
         print(f"{path}: tier {tier} holds nothing")
     return segments, tier
+
+
+def _beyond(scored: Floats, reference: Floats) -> list[str]:
+    """Say which segments of one side lie where the other has none: tiers of different length."""
+    out = []
+    for word, other, ours, theirs in (
+        ("scored", "reference", scored, reference),
+        ("reference", "scored", reference, scored),
+    ):
+        if not len(ours) or not len(theirs):
+            continue
+        first, last = float(theirs[:, 0].min()), float(theirs[:, 1].max())
+        beyond = int(((ours[:, 1] <= first) | (ours[:, 0] >= last)).sum())
+        if beyond:
+            out.append(
+                f"{word}: {beyond} of {len(ours)} segments lie before {first:.3f} s or after "
+                f"{last:.3f} s, where {other} has none; they are scored as without a partner"
+            )
+    return out
 
 
 def _printed(table: pd.DataFrame) -> str:

@@ -18,6 +18,7 @@ from signkin.kinematics.filters import lowpass
 from signkin.kinematics.gaps import fill_gaps, longest_stretch_s
 from signkin.kinematics.minima import minima_with_depth
 from signkin.kinematics.plausibility import check_recording
+from signkin.kinematics.rests import rest_times
 from signkin.recording import Recording
 from signkin.settings.sections import Kinematics as KinematicsSettings
 from signkin.stages.ingest import excluded_row, lead
@@ -113,14 +114,17 @@ def _wrists(
             prominence=settings.minima.prominence * fastest,
             spacing_s=settings.minima.spacing_s,
         )
+        rests = rest_times(recording.track(f"{hand}_wrist"), rate, times)
         minima += [
             {
                 "hand": hand,
                 "minimum_s": time,
                 f"speed_{unit}_per_s": low,
                 f"prominence_{unit}_per_s": depth,
+                "rest_s": rest,
+                "rest_sd_s": sd,
             }
-            for time, low, depth in zip(times, lows, depths, strict=True)
+            for time, low, depth, rest, sd in zip(times, lows, depths, *rests, strict=True)
         ]
     return pd.DataFrame(columns), minima
 

@@ -87,6 +87,10 @@ TABLES = (
             Column("minimum_s", "s", "time of the minimum"),
             Column("speed_{u}_per_s", "m/s or px/s", "low-passed speed at the minimum"),
             Column("prominence_{u}_per_s", "m/s or px/s", "depth below its surroundings"),
+            Column(
+                "rest_s", "s", "where the hand rests near it, from positions before the low-pass"
+            ),
+            Column("rest_sd_s", "s", "SD of that (0.026: the positions do not tell)"),
         ),
     ),
     Table(

@@ -27,13 +27,13 @@ def made(monkeypatch):
     )
     minima = pd.DataFrame(
         {"recording": "r", "hand": "right", "minimum_s": signs.ravel() + 0.02,
-         "prominence_m_per_s": 0.5}
+         "prominence_m_per_s": 0.5, "rest_s": signs.ravel() + 0.02, "rest_sd_s": 0.005}
     )  # fmt: skip
     corpus = SimpleNamespace(
         name="c", unit="m", by_name={"r": None}, dominant_hand=lambda entry: "right"
     )
     types = pd.DataFrame({"recording": "r", "sign": range(1, 21), "type": ["00", "11"] * 10})
-    models = posteriors.tag_models(corpus, ["r"], intervals, minima, types, 6.0)
+    models = posteriors.tag_models(corpus, ["r"], intervals, minima, types)
     models = posteriors.models_of(posteriors.models_text(models))
     table = posteriors.boundary_posteriors(corpus, ["r"], intervals, minima, types, models)
     return signs, intervals, table

@@ -25,6 +25,5 @@ with job(snakemake, analysis=True):
         intervals,
         tables.read_table(source.minima, "minima"),
         types,
-        params.settings.kinematics.lowpass.cutoff_hz,
     )
     Path(out.model).write_text(models_text(models), encoding="utf-8")

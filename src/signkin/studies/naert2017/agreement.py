@@ -55,7 +55,11 @@ def agreement(
         own = lows[name]
         for hand in HANDS:
             rows = own[own["hand"] == hand]
-            times[name, hand] = (rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float))
+            times[name, hand] = (
+                rows["minimum_s"].to_numpy(float),
+                rows[depth].to_numpy(float),
+                rows[["rest_s", "rest_sd_s"]].to_numpy(float),
+            )
     made: dict[str, list[pd.DataFrame]] = {name: [] for name in NAMES}
     for one, other in combinations(found, 2):
         both = (one, other)

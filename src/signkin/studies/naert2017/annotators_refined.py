@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -18,7 +18,9 @@ from signkin.studies.naert2017.annotators import Signs, pairs_of
 DRAWS = {"rule": 200, "posterior": 39}
 NO_PAIR = "no sign of one overlaps a sign of the other"
 
-Minima = Mapping[tuple[str, str], tuple[np.ndarray, np.ndarray]]  # recording, hand: times, depths
+# Times, depths and rests (M, 2) of the minima of a hand, as `refine_posterior` has them.
+OfHand = tuple[np.ndarray, np.ndarray, np.ndarray]
+Minima = Mapping[tuple[str, str], OfHand]  # by recording and hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +31,16 @@ class _Both:
     pairs: np.ndarray
     minima_s: np.ndarray
     depth: np.ndarray
+    rests_s: np.ndarray
 
-    def shifted(self, rng: np.random.Generator) -> np.ndarray:
-        """Return the minima shifted in a circle, by 1 s or more where there is room."""
+    def shifted(self, rng: np.random.Generator) -> _Both:
+        """Return the same with minima shifted in a circle, by 1 s or more where there is room."""
         low = min(tags.min() for tags in self.tags) - 1.0
         span = max(tags.max() for tags in self.tags) + 1.0 - low
         by = rng.uniform(min(1.0, span / 3), max(span - 1.0, span * 2 / 3))
-        return np.asarray(low + (self.minima_s - low + by) % span)
+        shifted = low + (self.minima_s - low + by) % span
+        moved = np.column_stack([shifted - self.minima_s, np.zeros(len(shifted))])
+        return replace(self, minima_s=shifted, rests_s=self.rests_s + moved)
 
 
 def refined_agreement(
@@ -62,10 +67,10 @@ def refined_agreement(
         before = _apart(parts, [part.tags for part in parts])
         for method, draws in DRAWS.items():
             models = _models(parts) if method == "posterior" else None
-            after = _apart(parts, [_refined(p, p.minima_s, window_s, models) for p in parts])
+            after = _apart(parts, [_refined(p, window_s, models) for p in parts])
             rng = stream(seed, corpus, *names, hand, method, "annotators")
             chance = before - np.array([
-                _apart(parts, [_refined(p, p.shifted(rng), window_s, models) for p in parts])
+                _apart(parts, [_refined(p.shifted(rng), window_s, models) for p in parts])
                 for _ in range(draws)
             ])  # fmt: skip
             low, high = np.quantile(chance, [0.025, 0.975], axis=0)
@@ -80,33 +85,38 @@ def refined_agreement(
     return pd.DataFrame(rows, columns=tables.TABLES["annotator_refined"].names())
 
 
-def _both(signs: tuple[Signs, Signs], name: str, minima: tuple[np.ndarray, np.ndarray]) -> _Both:
+def _both(signs: tuple[Signs, Signs], name: str, minima: OfHand) -> _Both:
     first, second = (
         np.array([(i.start_s, i.end_s) for i in side[name]]).reshape(-1, 2) for side in signs
     )
     pairs = np.array(pairs_of(signs[0][name], signs[1][name]), dtype=int).reshape(-1, 2)
     order = np.argsort(minima[0], kind="stable")
-    return _Both((first, second), pairs, minima[0][order], minima[1][order])
+    return _Both((first, second), pairs, *(values[order] for values in minima))
 
 
 def _models(parts: list[_Both]) -> tuple[TagModel, TagModel]:
     first, second = (
-        learn_tag_model([(part.tags[k], part.minima_s, part.depth) for part in parts])
+        learn_tag_model(
+            [(part.tags[k], part.minima_s, part.depth) for part in parts],
+            rests_s=[part.rests_s for part in parts],
+        )
         for k in (0, 1)
     )
     return first, second
 
 
 def _refined(
-    part: _Both, minima_s: np.ndarray, window_s: float, models: tuple[TagModel, TagModel] | None
+    part: _Both, window_s: float, models: tuple[TagModel, TagModel] | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the tags of both annotators after refinement; without models by the plain rule."""
     if models is None:
-        ordered = np.sort(minima_s)
+        ordered = np.sort(part.minima_s)
         first, second = (refine_each(tags, ordered, window_s)[0] for tags in part.tags)
     else:
         first, second = (
-            refine_posterior(tags, minima_s, part.depth, model=model).mean_s
+            refine_posterior(
+                tags, part.minima_s, part.depth, rests_s=part.rests_s, model=model
+            ).mean_s
             for tags, model in zip(part.tags, models, strict=True)
         )
     return first, second

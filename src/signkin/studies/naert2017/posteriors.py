@@ -14,7 +14,6 @@ from signkin.annotation import Interval
 from signkin.coarticulation import (
     TagModel,
     learn_tag_model,
-    most_outward_s,
     refine_posterior,
 )
 from signkin.coarticulation.segmentation import EDGES
@@ -26,7 +25,8 @@ from signkin.tables import ByRecording, rows_of
 NOT_LEARNT = "too few tags or no minima to learn from: bias and jitter are assumed"
 
 
-Given = tuple[np.ndarray, np.ndarray, np.ndarray]  # tags (N, 2), minima (M,), their depths
+# Tags (N, 2), minima (M,), their depths, and where the hand rests near them (M, 2).
+Given = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def tag_models(
@@ -35,18 +35,17 @@ def tag_models(
     intervals: pd.DataFrame,
     minima: pd.DataFrame,
     sign_types: pd.DataFrame,
-    cutoff_hz: float,
 ) -> dict[str, TagModel]:
     """Return how tags and minima of each hand lie about boundaries, learnt from recordings.
 
-    names: of the recordings. intervals, minima, sign_types: tables of these names. cutoff_hz: of
-    the low-pass that speeds have gone through.
+    names: of the recordings. intervals, minima, sign_types: tables of these names.
     """
-    start = TagModel(most_outward_s=most_outward_s(cutoff_hz))
     signs, given, acts = _given(corpus, names, intervals, minima, sign_types)
     return {
         hand: learn_tag_model(
-            [given[hand, name] for name in signs], start, acts=[acts[hand, name] for name in signs]
+            [given[hand, name][:3] for name in signs],
+            rests_s=[given[hand, name][3] for name in signs],
+            acts=[acts[hand, name] for name in signs],
         )
         for hand in HANDS
     }
@@ -82,7 +81,7 @@ def boundary_posteriors(
     parts = []
     for hand in HANDS:
         model = models[hand]
-        learnt = model != TagModel(most_outward_s=model.most_outward_s)
+        learnt = model != TagModel()
         for name, tags in signs.items():
             labels = [s.label for s in tags]
             rows = _rows(hand, labels, given[hand, name], acts[hand, name], model)
@@ -112,8 +111,11 @@ def _given(
         for hand in HANDS:
             rows = own[own["hand"] == hand]
             given[hand, name] = (
-                times, rows["minimum_s"].to_numpy(float), rows[depth].to_numpy(float)
-            )  # fmt: skip
+                times,
+                rows["minimum_s"].to_numpy(float),
+                rows[depth].to_numpy(float),
+                rows[["rest_s", "rest_sd_s"]].to_numpy(float),
+            )
             acts[hand, name] = acting(corpus, types, name, hand, len(tags))
     return signs, given, acts
 
@@ -138,12 +140,12 @@ def acting(
 def _rows(
     hand: str,
     glosses: list[str],
-    given: tuple[np.ndarray, np.ndarray, np.ndarray],
+    given: Given,
     acts: np.ndarray,
     model: TagModel,
 ) -> pd.DataFrame:
-    tags, times, depth = given
-    found = refine_posterior(tags, times, depth, acts=acts, model=model)
+    tags, times, depth, rests = given
+    found = refine_posterior(tags, times, depth, rests_s=rests, acts=acts, model=model)
     bias = np.broadcast_to(model.bias_s, tags.shape)
     return pd.DataFrame(
         {
@@ -162,7 +164,6 @@ def _rows(
             "acts": np.repeat(acts, 2),
             "bias_s": bias.ravel(),
             "jitter_s": model.sd_s,
-            "outward_s": model.outward_s,
             "note": [str(note) for note in found.notes.ravel()],
         }
     )

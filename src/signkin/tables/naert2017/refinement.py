@@ -52,11 +52,6 @@ TABLES = (
             ),
             Column("bias_s", "s", "boundary less tag, learnt from the corpus for hand and edge"),
             Column("jitter_s", "s", "SD of the tags about their boundaries, learnt for the hand"),
-            Column(
-                "outward_s",
-                "s",
-                "so much before starts and after ends the minima lie, learnt for the hand",
-            ),
             NOTE,
         ),
     ),
