@@ -29,6 +29,12 @@ RUN_EXAMPLES = """examples:
   signkin run -n                       what would be done
   signkin run --cores 4 -- naert2017   one study, on four cores
 """
+FIRST = """examples:
+  signkin corpus check mine         what is suspicious in your recordings
+  signkin run                       everything; then open results/report/index.html
+  signkin audit papers/naert2017    can a paper's printed numbers be right?
+  signkin COMMAND --help            more of a command, with examples
+"""
 SPEAK_EXAMPLES = """examples:
   signkin utterance dgs-1984189 CAT3 BIRD1
   signkin utterance boston104 "JOHN BUY HOUSE" --method interpolation
@@ -44,9 +50,11 @@ def main(arguments: list[str] | None = None) -> int:
         from signkin.pages.audit_paper import audit_papers
 
         return audit.main(words[1:], audit_papers)
-    parser = argparse.ArgumentParser(prog="signkin", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True)
     plain = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(
+        prog="signkin", description=__doc__, epilog=FIRST, formatter_class=plain
+    )
+    commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("run", help="run the workflow; further arguments go to snakemake",
                         epilog=RUN_EXAMPLES, formatter_class=plain)  # fmt: skip
     speak = commands.add_parser("utterance", help="an utterance from the signs of a corpus",

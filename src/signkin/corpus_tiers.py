@@ -20,6 +20,8 @@ def filled(wish: TierWish, entry: Entry) -> TierWish:
     """Return a wish with the recording's own names in place of `{recording}` and the like."""
     if isinstance(wish, Mapping):
         return {key: str(filled(value, entry)) for key, value in wish.items()}
+    if "{" not in wish:
+        return wish
     for key in ("signer", "recording", "part"):
         wish = wish.replace(f"{{{key}}}", getattr(entry, key))
     return wish

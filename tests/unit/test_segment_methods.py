@@ -186,9 +186,8 @@ def session(tmp_path):
           "start_s": round(t.tag[0], 3), "end_s": round(t.tag[1], 3)} for t in tokens]
     )  # fmt: skip
     true = np.array([t.true_s["right"] for t in tokens]).ravel()
-    minima = pd.DataFrame({"recording": "r", "hand": "right", "minimum_s": true,
-                           "prominence_m_per_s": 0.3, "rest_s": true,
-                           "rest_sd_s": 0.01})  # fmt: skip
+    minima = pd.DataFrame({"recording": "r", "hand": "right", "minimum_s": true, "rest_s": true,
+                           "rest_sd_s": 0.01, "prominence_m_per_s": 0.3})  # fmt: skip
     types = pd.DataFrame({"recording": "r", "sign": range(1, 41), "type": "00"})
     about = pd.DataFrame({"recording": ["r"], "rate_hz": [100.0]})
     corpus = SimpleNamespace(

@@ -214,7 +214,7 @@ rule endres2013:
         collect(rules.recorded_laws.output, corpus=PLAN.single_signs),
         collect(rules.one_wrist.output, corpus=PLAN.continuous),
         collect(
-            rules.binning_elan.output,
+            rules.gather_binning_elan.output,
             corpus=[c for c in PLAN.tagged if c in PLAN.continuous],
         ),
         rules.binning_scheme.output,

@@ -165,21 +165,37 @@ rule naert_figures:
 rule write_elan:
     """Refined tags written back: the .eaf with tiers added, posteriors too."""
     input:
-        boundaries=rules.naert_tables.output.boundaries,
-        posteriors=rules.naert_tables.output.posteriors,
-        about=rules.gather.output.recordings,
-        intervals=rules.gather.output.intervals,
-        annotation=lambda w: PLAN.annotation_files(w.corpus),
+        boundaries=rules.refine.output.boundaries,
+        posteriors=rules.tag_posteriors.output.posteriors,
+        about=rules.ingest.output.about,
+        intervals=rules.ingest.output.intervals,
+        annotation=lambda w: PLAN.annotation_files(w.corpus, w.shard),
+    output:
+        folder=directory("<results>/naert2017/{corpus}/shards/{shard}/eaf"),
+    log:
+        "<logs>/naert2017/{corpus}/{shard}/elan.log",
+    params:
+        code=PLAN.digest("naert2017/elan.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        elan=lambda w: w.corpus in PLAN.with_elan,
+        data=lambda w: str(PLAN.folders[w.corpus]),
+    script:
+        "../scripts/naert2017/elan.py"
+
+
+rule gather_elan:
+    """The .eaf of a whole corpus."""
+    input:
+        folders=of_shards(rules.write_elan.output.folder),
     output:
         folder=directory("<results>/naert2017/{corpus}/eaf"),
     log:
         "<logs>/naert2017/{corpus}/elan.log",
     params:
-        code=PLAN.digest("naert2017/elan.py"),
-        elan=lambda w: w.corpus in PLAN.with_elan,
-        data=lambda w: str(PLAN.folders[w.corpus]),
+        code=PLAN.digest("stages/gather_folders.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
     script:
-        "../scripts/naert2017/elan.py"
+        "../scripts/stages/gather_folders.py"
 
 
 rule simulation_check:
@@ -235,7 +251,7 @@ rule naert2017:
     input:
         collect(rules.naert_tables.output, corpus=PLAN.tagged),
         collect(rules.naert_figures.output, corpus=PLAN.tagged),
-        collect(rules.write_elan.output, corpus=PLAN.tagged),
+        collect(rules.gather_elan.output, corpus=PLAN.tagged),
         collect(rules.simulation_check.output, corpus=PLAN.simulated.get("lsf-sim", [])),
         collect(
             rules.annotators.output if PLAN.with_annotators else [],

@@ -67,17 +67,33 @@ rule one_wrist:
 rule binning_elan:
     """Segments by binning in the .eaf, as tiers of their own."""
     input:
-        boundaries=rules.one_wrist.output.wrist_boundaries,
-        about=rules.gather.output.recordings,
-        intervals=rules.gather.output.intervals,
-        annotation=lambda w: PLAN.annotation_files(w.corpus),
+        boundaries=rules.long_series.output.wrist_boundaries,
+        about=rules.ingest.output.about,
+        intervals=rules.ingest.output.intervals,
+        annotation=lambda w: PLAN.annotation_files(w.corpus, w.shard),
+    output:
+        folder=directory("<results>/endres2013/{corpus}/shards/{shard}/eaf"),
+    log:
+        "<logs>/endres2013/{corpus}/{shard}/elan.log",
+    params:
+        code=PLAN.digest("one_wrist/elan.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
+        elan=lambda w: w.corpus in PLAN.with_elan,
+        data=lambda w: str(PLAN.folders[w.corpus]),
+    script:
+        "../scripts/one_wrist/elan.py"
+
+
+rule gather_binning_elan:
+    """The .eaf with segments by binning, of a whole corpus."""
+    input:
+        folders=of_shards(rules.binning_elan.output.folder),
     output:
         folder=directory("<results>/endres2013/{corpus}/eaf"),
     log:
         "<logs>/endres2013/{corpus}/elan.log",
     params:
-        code=PLAN.digest("one_wrist/elan.py"),
-        elan=lambda w: w.corpus in PLAN.with_elan,
-        data=lambda w: str(PLAN.folders[w.corpus]),
+        code=PLAN.digest("stages/gather_folders.py"),
+        corpus=lambda w: str(PLAN.corpora[w.corpus].folder),
     script:
-        "../scripts/one_wrist/elan.py"
+        "../scripts/stages/gather_folders.py"

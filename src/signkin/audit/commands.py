@@ -64,6 +64,10 @@ def _papers(arguments: Sequence[str]) -> argparse.Namespace:
 
 def list_checks(names: Sequence[str]) -> int:
     """Print all checks on print, or those named, with their arguments and an example each."""
+    if {"-h", "--help"} & set(names):
+        print("signkin audit list [NAME ...]: checks with arguments and an example each\n\n"
+              "example:\n  signkin audit list grim p_value")  # fmt: skip
+        return 0
     unknown = [name for name in names if name not in PUBLISHED]
     if unknown:
         raise SignkinError(

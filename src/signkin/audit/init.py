@@ -26,7 +26,11 @@ TABLES = (".csv", ".tsv", ".tab")
 
 def init(arguments: Sequence[str]) -> int:
     """Write a paper's folder from a file; prints what was found and what was not understood."""
-    parser = argparse.ArgumentParser(prog="signkin audit init", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="signkin audit init",
+        description=__doc__,
+        epilog="example: signkin audit init paper.pdf --to mine",
+    )
     parser.add_argument("file", type=Path,
                         help="the paper (.pdf, .txt) or a table (.csv, .tsv)")  # fmt: skip
     parser.add_argument("--to", type=Path, help="the folder to write; by default the file's name")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from signkin.binning import segments
-from signkin.binning.fitting import EVERY_COUNT_UP_TO, fit
+from signkin.binning.fitting import EVERY_COUNT_UP_TO, fit, log_evidence
 from signkin.binning.hit_rate import chance_line, hit_rate, match
 from signkin.binning.jit import JIT_OFF
 from signkin.binning.prior import Prior
@@ -20,6 +20,7 @@ KERNELS = (
     "band",
     "best_path",
     "counts",
+    "evidence_alone",
     "evidence_layout",
     "exact",
     "jit",
@@ -64,6 +65,7 @@ def compile_kernels() -> None:
             found = fit(x + far, (0, 1), prior, max_segment_bins=longest)
             found.map_trajectory(1)
             found.boundaries(1)
+    log_evidence(rng.normal(size=(12, 2)), (0, 1), prior)
     fit(rng.normal(size=(EVERY_COUNT_UP_TO + 1, 2)), (0,), prior, max_segment_bins=9, whole_up_to=1)
     match([0.1], [0.1])
     hit_rate([0.1], [0.1], duration_s=1.0)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning.all_counts import counted, in_band, log_sum
 from signkin.binning.evidence import Engine
+from signkin.binning.evidence_alone import log_evidences_of
 from signkin.binning.posterior import Posterior
 from signkin.binning.prior import HIGHEST_ORDER, Prior
 from signkin.binning.segmentation_prior import log_uniform
@@ -20,6 +21,7 @@ from signkin.errors import SignkinError, listed
 from signkin.masked import unmasked
 
 Floats = NDArray[np.float64]
+Done = TypeVar("Done")
 
 # Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
 EVERY_COUNT_UP_TO = 256
@@ -136,18 +138,42 @@ def fit_many(
     sample_at: one for all, or one each. options: as for `fit`.
     """
     n = len(trajectories)
+    places = [sample_at] * n if np.ndim(sample_at) == 0 else _each(sample_at, "sample_at", n)
+
+    def one(job: tuple[Floats, Any, Any, str, Any]) -> Posterior:
+        x, of_it, step, name, place = job
+        return fit(x, orders, of_it, step, name=name, sample_at=place, **options)
+
+    told = _told(n, prior, dt_s, names)
+    return _on_cores(workers, one, zip(trajectories, *told, places, strict=True))
+
+
+def log_evidences_of_many(
+    trajectories: Sequence[Floats], orders: Sequence[int], prior: Prior | Sequence[Prior],
+    dt_s: float | Sequence[float] | None = None, workers: int = 1,
+    names: Sequence[str] | None = None,
+) -> list[Floats]:  # fmt: skip
+    """Return the `log_evidence` of each of many trajectories; arguments as for `fit_many`."""
+
+    def one(job: tuple[Floats, Any, Any, str]) -> Floats:
+        x, of_it, step, name = job
+        return log_evidence(x, orders, of_it, step, name)
+
+    told = _told(len(trajectories), prior, dt_s, names)
+    return _on_cores(workers, one, zip(trajectories, *told, strict=True))
+
+
+def _told(n: int, prior: Any, dt_s: Any, names: Any) -> tuple[list[Any], list[Any], list[str]]:
+    """Return a prior, a duration of bins and a name for each of n trajectories."""
     priors = [prior] * n if prior is None or isinstance(prior, Prior) else _each(prior, "prior", n)
     steps = [dt_s] * n if dt_s is None or np.ndim(dt_s) == 0 else _each(dt_s, "dt_s", n)
-    places = [sample_at] * n if np.ndim(sample_at) == 0 else _each(sample_at, "sample_at", n)
     called = (
         [f"trajectory {i + 1}" for i in range(n)] if names is None else _each(names, "names", n)
     )
+    return priors, steps, called
 
-    def one(job: tuple[Floats, Any, Any, Any, str]) -> Posterior:
-        x, of_it, step, place, name = job
-        return fit(x, orders, of_it, step, name=name, sample_at=place, **options)
 
-    jobs = zip(trajectories, priors, steps, places, called, strict=True)
+def _on_cores(workers: int, one: Callable[[Any], Done], jobs: Iterable[Any]) -> list[Done]:
     if workers <= 1:
         return [one(job) for job in jobs]
     return list(_pool(workers).map(one, jobs))
@@ -157,6 +183,24 @@ def fit_many(
 def _pool(workers: int) -> ThreadPoolExecutor:
     """Return threads that stay, with the memory that each of them works in (room.py)."""
     return ThreadPoolExecutor(max_workers=workers, thread_name_prefix="binning")
+
+
+def log_evidence(
+    X: Floats, orders: Sequence[int], prior: Prior, dt_s: float | None = None,
+    name: str = "trajectory",
+) -> Floats:  # fmt: skip
+    """Return `fit(...).log_evidence`, ln P(D | S) of the orders, in half its time."""
+    if len(X) > EVERY_COUNT_UP_TO:
+        return fit(X, orders, prior, dt_s, expectations=False, name=name).log_evidence
+    prior = _a_prior(prior, name)
+    step = None if dt_s is None else _positive(dt_s, "dt_s", name)
+    x, wanted = _checked(X, orders, name)
+    bins = len(x)
+    try:
+        engine = Engine(x, prior, bins, max(wanted) + 1, step)
+    except SignkinError as error:
+        raise error.at(file=name) from error
+    return log_evidences_of(engine.by_segment(), wanted, bins, bins)
 
 
 def segment_log_evidence(X: Floats, order: int, prior: Prior, dt_s: float | None = None) -> Floats:

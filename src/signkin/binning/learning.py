@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning.all_counts import log_sum
-from signkin.binning.fitting import fit_many
+from signkin.binning.fitting import log_evidences_of_many
 from signkin.binning.prior import Prior
 from signkin.errors import SignkinError
 
@@ -120,10 +120,7 @@ def log_evidences(
     workers: int = 1,
 ) -> Floats:  # fmt: skip
     """Return ln P(D_n | S) of trajectories under one prior, or one each, (trajectories, orders)."""
-    found = fit_many(
-        trajectories, orders, prior, dt_s, workers=workers, names=names, expectations=False
-    )
-    return np.array([one.log_evidence for one in found])
+    return np.array(log_evidences_of_many(trajectories, orders, prior, dt_s, workers, names))
 
 
 def held_out(train: Floats, other: Floats) -> Floats:

@@ -22,6 +22,7 @@ from signkin.errors import SignkinError, listed
 TIME_UNITS = ("bin", "second", "trajectory")
 SCALES = ("expected", "plain", "literal")
 HIGHEST_ORDER = 9
+ROUND = 25  # bins: geometries are made for a multiple of it
 LEAST_SD, MOST_SD = 1e-150, 1e150  # of noise: beyond, squares are 0 or infinite
 
 
@@ -221,26 +222,51 @@ class _Geometry:
     log_ratio: NDArray[np.float64]  # (ln|B| - ln|A|) / 2 for each order
 
 
-@lru_cache(maxsize=128)  # a study of priors goes through some 80 of them, again and again
+@lru_cache(maxsize=128)
 def _geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
-    """Rotate one row after the other into the factor, in extended precision."""
+    """Return what segments of up to `longest` bins have in common, of all priors with b and step.
+
+    Shorter segments and lower orders are the beginning of what longer and higher ones have: it is
+    worked out for a round number of bins, which is that of many trajectories, and for eight orders.
+    """
+    whole = _whole_geometry(-(-longest // ROUND) * ROUND, max(n_orders, 8), b, step)
+    return _Geometry(
+        np.ascontiguousarray(whole.cosine[:longest, :n_orders]),
+        np.ascontiguousarray(whole.sine[:longest, :n_orders]),
+        np.ascontiguousarray(whole.inverse[:longest, :n_orders, :n_orders]),
+        np.ascontiguousarray(whole.powers[:longest, :n_orders]),
+        np.ascontiguousarray(whole.log_ratio[:longest, :n_orders]),
+    )
+
+
+@lru_cache(maxsize=128)  # a study of priors goes through some 20 of them, again and again
+def _whole_geometry(longest: int, n_orders: int, b: float, step: float) -> _Geometry:
+    """Rotate one row after the other into the factor, in extended precision.
+
+    Row n meets order d when row n - 1 has, and when it has met order d - 1: all (n, d) of one sum
+    n + d are done together. Before the first row and after the last one rows of 0 change nothing.
+    """
     wide = np.longdouble
     root_b = np.sqrt(wide(b))
-    factor = np.eye(n_orders, dtype=wide) * root_b
-    cosine, sine = np.empty((2, longest, n_orders), dtype=wide)
-    factors = np.empty((longest, n_orders, n_orders), dtype=wide)
+    steps = longest + n_orders - 1
+    c, s = np.empty((2, steps, n_orders), dtype=wide)
+    factors = np.empty((steps, n_orders, n_orders), dtype=wide)
     times = wide(step) * np.arange(1, longest + 1, dtype=wide)
     powers = times[:, None] ** np.arange(n_orders)
-    for n in range(longest):
-        row = powers[n].copy()
-        for d in range(n_orders):
-            size = np.hypot(factor[d, d], row[d])
-            c, s = factor[d, d] / size, row[d] / size
-            old = factor[d, d:].copy()
-            factor[d, d:] = c * old + s * row[d:]
-            row[d:] = c * row[d:] - s * old
-            cosine[n, d], sine[n, d] = c, s
-        factors[n] = factor
+    factor = np.eye(n_orders, dtype=wide) * root_b  # what lies below its diagonal is not read
+    rows = np.zeros((n_orders, n_orders), dtype=wide)  # the one that meets each order
+    for at in range(steps):
+        rows[0] = powers[at] if at < longest else 0
+        old, new = factor.diagonal(), rows.diagonal()
+        size = np.hypot(old, new)
+        c[at], s[at] = old / size, new / size
+        cosine, sine = c[at, :, None], s[at, :, None]
+        factors[at] = cosine * factor + sine * rows
+        rows[1:] = (cosine * rows - sine * factor)[:-1]
+        factor = factors[at]
+    d = np.arange(n_orders)
+    n = np.arange(longest)[:, None] + d
+    cosine, sine, factors = c[n, d], s[n, d], factors[n, d]
     diagonal = np.diagonal(factors, axis1=1, axis2=2)
     log_ratio = np.cumsum(np.log(root_b) - np.log(diagonal), axis=1)
     return _Geometry(

@@ -122,9 +122,9 @@ class Plan:
         names = [n for e in self.entries(corpus, shard) for n in (e.motion, e.annotation) if n]
         return self._there(corpus, list(dict.fromkeys(names)))
 
-    def annotation_files(self, corpus: str) -> list[str]:
-        """Return the annotation files of a corpus."""
-        names = dict.fromkeys(e.annotation for e in self.corpora[corpus].entries if e.annotation)
+    def annotation_files(self, corpus: str, shard: str) -> list[str]:
+        """Return the annotation files of a shard's recordings."""
+        names = dict.fromkeys(e.annotation for e in self.entries(corpus, shard) if e.annotation)
         return self._there(corpus, list(names))
 
     @property

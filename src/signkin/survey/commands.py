@@ -34,8 +34,10 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
     what = corpus.add_subparsers(dest="what", required=True)
-    listing = what.add_parser("list", help="the corpora of this folder, and what each is good for")
-    check = what.add_parser("check", help="what is suspicious in a corpus, and what to do first")
+    listing = what.add_parser("list", help="the corpora of this folder, and what each is good for",
+                              epilog="example: signkin corpus list")  # fmt: skip
+    check = what.add_parser("check", help="what is suspicious in a corpus, and what to do first",
+                            epilog="example: signkin corpus check mine")  # fmt: skip
     check.add_argument("corpus", help="a corpus of this folder, or the folder of one")
     check.add_argument("--recordings", type=int, default=RECORDINGS,
                        help=f"look at so many, evenly over the list ({RECORDINGS})")  # fmt: skip
@@ -43,13 +45,16 @@ def add_parser(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--out", type=Path, help="folder of the page and tables "
                        "(results/check/<corpus>)")  # fmt: skip
     rate = what.add_parser("rate", help="put ratings that a page saved where the next run reads "
-                           "them: exclude leaves a recording or tag out")  # fmt: skip
+                           "them: exclude leaves a recording or tag out",
+                           epilog="example: signkin corpus rate ratings-mine.csv")  # fmt: skip
     rate.add_argument("ratings", type=Path, help="CSV of the page of a corpus")
-    first = what.add_parser("init", help="describe a folder of recordings as a corpus")
+    first = what.add_parser("init", help="describe a folder of recordings as a corpus",
+                            epilog="example: signkin corpus init ~/recordings/mine")  # fmt: skip
     first.add_argument("folder", type=Path, help="folder with the motion and the annotations")
     first.add_argument("--name", help="of the corpus (the folder's name)")
     first.add_argument("--into", type=Path, help="folder of its description (corpora/<name>)")
-    get = what.add_parser("fetch", help="get the files of a corpus that have a public address")
+    get = what.add_parser("fetch", help="get the files of a corpus that have a public address",
+                          epilog="example: signkin corpus fetch libras")  # fmt: skip
     get.add_argument("corpus", help="a corpus of this folder")
     for parser in (listing, check, get):
         parser.add_argument("--data", help="folder of the real recordings (else SIGNKIN_DATA)")

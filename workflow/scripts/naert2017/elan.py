@@ -3,6 +3,8 @@ from signkin.job import job
 with job(snakemake, analysis=True):
     from pathlib import Path
 
+    import pandas as pd
+
     from signkin import tables
     from signkin.studies.naert2017.elan import refined_copies
 
@@ -14,7 +16,7 @@ with job(snakemake, analysis=True):
         tables.read_table(snakemake.input.boundaries, "boundaries"),
         tables.read_table(snakemake.input.intervals, "intervals"),
         elan=snakemake.params.elan,
-        posteriors=tables.read_table(snakemake.input.posteriors, "boundary_posteriors"),
+        posteriors=pd.read_parquet(snakemake.input.posteriors),
     )
     for name, content in copies.items():
         (folder / name).write_bytes(content)
