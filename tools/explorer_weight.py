@@ -112,9 +112,10 @@ def main(results: str, corpus_name: str, name: str, minutes: str, rate: str, pag
     parts = {key: len(json.dumps(value)) for key, value in data.items()}
     heaviest = sorted(parts.items(), key=lambda part: -part[1])[:6]
     used = resource.getrusage(resource.RUSAGE_SELF)
+    print(f"{file}: {file.stat().st_size:,} bytes, made in {took:.1f} s")
     print(
-        f"{file}: {file.stat().st_size:,} bytes, made in {took:.1f} s; {len(recording.times_s):,} "
-        f"frames; in all {used.ru_utime + used.ru_stime:.0f} s of CPU, {used.ru_maxrss / 1024:.0f} MB"
+        f"{len(recording.times_s):,} frames; in all {used.ru_utime + used.ru_stime:.0f} s of CPU, "
+        f"{used.ru_maxrss / 1024:.0f} MB"
     )
     print(", ".join(f"{key} {size:,}" for key, size in heaviest), f"; all {len(as_json(data)):,}")
     body, methods = data["skeleton"], list((data["syntheses"] or {}).get("methods", {}))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from signkin.binning import Prior, fit
+from signkin.binning import Prior, fit, fitting
 from signkin.binning.segmentation_prior import log_cuts, log_prior_of, log_uniform
 from signkin.binning.stretches import Stretches, in_stretches
 
@@ -59,6 +59,27 @@ def test_priors_that_want_the_fewest_segments_or_many(noise_sd):
     assert cut.at_floor(2) == whole.at_floor(2) == (noise_sd >= 3.0)
     off = np.abs(cut.boundary_probability(2) - whole.boundary_probability(2)).max()
     assert off <= cut.cut_mass[0] + 1e-9
+
+
+@pytest.mark.parametrize("turns", [14, 300])
+def test_too_long_segments_are_left_out_only_where_they_add_nothing(monkeypatch, turns):
+    rng = np.random.default_rng(3)
+    at = np.append(np.arange(0, 800, turns), 800)
+    path = np.interp(np.arange(800), at, rng.normal(0, 2, len(at)))
+    x = (path - path.mean() + rng.normal(0, 0.1, 800))[:, None]
+    options = {"orders": (0, 1), "prior": Prior(noise_sd=0.1), "expectations": (1,)}
+    whole = fit(x, **options)
+    seen = []
+    original = fitting.in_band
+    monkeypatch.setattr(fitting, "LEFT_OUT_ABOVE", 700)
+    monkeypatch.setattr(
+        fitting, "in_band", lambda e, *rest: seen.append(e.shape[2]) or original(e, *rest)
+    )
+    short = fit(x, **options)
+    assert seen[0] == 256
+    assert np.abs(short._boundary - whole._boundary).max() < 1e-9
+    assert np.abs(short.expected_trajectory(1) - whole.expected_trajectory(1)).max() < 1e-9
+    assert (short.cut_mass <= whole.cut_mass + 1e-9).all()
 
 
 def test_short_series_are_binned_as_a_whole():

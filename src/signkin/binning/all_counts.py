@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from signkin.binning import band
 from signkin.binning.counts import fit_orders, price_of_boundary
 from signkin.binning.evidence import ROOM
 from signkin.binning.lanes import WIDTH
+from signkin.binning.longer import Longer
 from signkin.binning.segmentation_prior import log_prior_of
 from signkin.binning.sum_product import columns_for
 from signkin.errors import SignkinError
@@ -81,17 +84,22 @@ def counted(
     )
 
 
-def in_band(evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int) -> Found:
+def in_band(
+    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, longer: Longer | None = None
+) -> Found | None:
     """Work out the likely M of a long series, with a bound on what is left out.
 
-    `evidence` (D, T, W) becomes probabilities of segments.
+    `evidence` (D, T, W) becomes probabilities of segments. longer: what bounds segments of more
+    than W bins, where those are left out (longer.py); None is returned where they must not be.
     """
     log_prior = log_prior_of(bins, longest)
     rows = len(wanted)
     log_by_count, probability = np.empty((2, rows, bins))
     boundary = np.empty((rows, bins))
     log_evidence, cut = np.empty((2, rows))
-    for i, d in enumerate(wanted):
+    # The lowest and the highest go first: those want the longest segments, if any does.
+    for i in sorted(range(rows), key=lambda i: min(i, rows - 1 - i)):
+        d = wanted[i]
         half_width, before = BAND, (0, np.inf)
         while True:
             kept = evidence[d].copy()
@@ -99,21 +107,28 @@ def in_band(evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int) 
                 kept, log_prior, half_width, log_by_count[i], probability[i], boundary[i]
             )
             _refuse_lost(np.array([lost]))
+            beyond = partial(longer, evidence[d], d) if longer else None
+            if beyond:
+                left_out += float(np.expm1(beyond(price)))
+                if left_out > BAND_CUT_MASS:
+                    return None
             cut[i] = _band_cut(
-                evidence[d], log_by_count[i], log_prior, log_evidence[i], left_out, price
+                evidence[d], log_by_count[i], log_prior, log_evidence[i], left_out, price, beyond
             )
             # What a wider band lacks, too, is below what sums can hold: widening adds nothing.
             held = (int(np.isfinite(log_by_count[i]).sum()), left_out)
             if cut[i] <= BAND_CUT_MASS or 2 * half_width >= bins or (held[0] and held == before):
                 break
             half_width, before = 2 * half_width, held
+        if longer and cut[i] > BAND_CUT_MASS:
+            return None
         evidence[d] = kept
     return Found(log_by_count, probability, boundary, log_evidence, cut, evidence)
 
 
 def _band_cut(
     evidence: Floats, log_by_count: Floats, log_prior: Floats, log_evidence: float,
-    left_out: float, price: float,
+    left_out: float, price: float, longer: Callable[[float], float] | None = None,
 ) -> float:  # fmt: skip
     """Return a bound on the share of P(M | D) that a band leaves out.
 
@@ -139,7 +154,8 @@ def _band_cut(
         last = step == TAIL_STEPS
         tilts = _edge_prices(log_by_count, log_prior, low, high) if last else None
         for tilt in tilts or _prices(bins, low, high, min(step, TAIL_STEPS - 1)):
-            bound = np.minimum(bound, _log_bound(evidence, tilt) + (m + 1) * tilt)
+            all_ways = _log_bound(evidence, tilt) + (longer(tilt) if longer else 0.0)
+            bound = np.minimum(bound, all_ways + (m + 1) * tilt)
         lacking = np.minimum(bound, strayed) + log_prior - log_evidence
         share = float(np.exp(np.minimum(0.0, log_sum(lacking))))
         if share <= BAND_CUT_MASS:

@@ -160,6 +160,25 @@ def log_sums(evidence: F, penalty: float, out: F) -> None:
 
 
 @kernel
+def log_sums_by_best(evidence: F, penalty: float, weight: F, out: F) -> None:
+    """Fill out as `log_sums` does, by the best path: sooner, but infinite where sums exceed it.
+
+    weight: (T, W) scratch.
+    """
+    bins, longest = evidence.shape
+    best_path(evidence, penalty, out)
+    scaled_evidence(evidence, penalty, out, weight)
+    sums = np.zeros(bins + 1)
+    sums[0] = 1.0
+    for p in range(bins):
+        here, row, ahead = sums[p], weight[p], sums[p + 1 :]
+        for n in range(min(longest, bins - p)):
+            ahead[n] += here * row[n]
+    for p in range(bins + 1):
+        out[p] += math.log(sums[p])
+
+
+@kernel
 def scaled_to_fit(evidence: F, penalty: float, best: F, weight: F) -> tuple[float, bool]:
     """Scale evidence so that sums over segmentations can be held.
 

@@ -10,11 +10,12 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.all_counts import counted, in_band, log_sum
+from signkin.binning.all_counts import Found, counted, in_band, log_sum
 from signkin.binning.evidence import Engine
 from signkin.binning.evidence_alone import log_evidences_of
+from signkin.binning.longer import bound_on_longer
 from signkin.binning.posterior import Posterior
-from signkin.binning.prior import HIGHEST_ORDER, Prior
+from signkin.binning.prior import HIGHEST_ORDER, Prior, tables
 from signkin.binning.segmentation_prior import log_uniform
 from signkin.binning.stretches import Stretches, in_stretches
 from signkin.errors import SignkinError, listed
@@ -25,6 +26,9 @@ Done = TypeVar("Done")
 
 # Above so many bins not every M is worked out unless asked for: the cost grows with M T^2.
 EVERY_COUNT_UP_TO = 256
+# Without a longest segment, a series of more bins has those left out that are unlikely long.
+LEFT_OUT_ABOVE = 2000
+LOOKED_AT = 256  # bins of the longest that are looked at at first
 # Above so many bins (200 s of 20 ms) a series with a longest segment is binned in stretches.
 WHOLE_UP_TO = 10_000
 LEAST_STRETCHES = 8  # of the longest segment
@@ -85,7 +89,7 @@ def fit(
     elif every:
         found = counted(engine.by_segment(), wanted, bins, longest, max_count)
     else:
-        found = in_band(engine.by_order(), wanted, bins, longest)
+        found, engine = _likely_counts(x, prior, wanted, dt_s, engine)
     if expected and mean is None:
         mean, noise = engine.expect(found.segments, expected)
     return Posterior(
@@ -105,6 +109,28 @@ def fit(
         _mean=mean,
         _noise=noise,
     )
+
+
+def _likely_counts(
+    x: Floats, prior: Prior, wanted: tuple[int, ...], dt_s: float | None, engine: Engine
+) -> tuple[Found, Engine]:
+    """Return the likely counts of a long series, and the kernels for the segments looked at.
+
+    Those too long to be likely are left out where a bound says that they add nothing.
+    """
+    bins, longest, orders = engine.bins, engine.longest, engine.n_orders
+    if longest == bins and bins > LEFT_OUT_ABOVE:
+        longer = bound_on_longer(tables(prior, bins, bins, engine.dims, orders, dt_s), bins)
+        looked_at = LOOKED_AT
+        while 4 * looked_at < 3 * bins:
+            short = Engine(x, prior, looked_at, orders, dt_s)
+            found = in_band(short.by_order(), wanted, bins, bins, longer)
+            if found is not None:
+                return found, short
+            looked_at += looked_at // 2
+    found = in_band(engine.by_order(), wanted, bins, longest)
+    assert found is not None
+    return found, engine
 
 
 def _expected(
