@@ -53,7 +53,8 @@ def failure(logs: Path, since: float) -> str:
     found = []
     for path in logs.rglob("*.log") if logs.is_dir() else ():
         if path.stat().st_mtime >= since and path.with_suffix(SUFFIX).is_file():
-            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            text = path.read_text(encoding="utf-8", errors="replace")
+            lines = [line for line in text.splitlines() if line.strip()]
             why = [line for line in lines if line.startswith("signkin: ")]
             if why or any(line.startswith("Traceback") for line in lines):
                 told = why[-1] if why else lines[-1]

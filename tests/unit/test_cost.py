@@ -45,3 +45,11 @@ def test_the_step_that_failed_is_told_with_why_and_its_log(tmp_path):
         f"Its log: {logs / 'first.log'}",
     ]
     assert failure(logs, since=5000.0) == "" == failure(tmp_path / "none", 0.0)
+
+
+def test_of_a_fault_of_ours_the_last_line_is_told(tmp_path):
+    """A traceback ends in an empty line: a full disk was told without a word."""
+    log = tmp_path / "step.log"
+    with noted(log, "ingest"):
+        log.write_text("Traceback (most recent call last):\nOSError: No space left\n\n")
+    assert failure(tmp_path, 0.0).startswith("signkin: the step ingest failed: OSError: No space")
