@@ -201,11 +201,15 @@ POSIX_ONLY = {"fcntl", "resource", "pwd", "grp", "termios", "posix", "syslog", "
 
 
 def test_modules_that_windows_has_not_are_imported_where_it_is_asked_for(root):
-    """Both files look at `sys.platform` first."""
+    """These files look at `sys.platform` first."""
     found = []
     for path in (root / "src").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
             found += [(path.name, n) for n in names if n.split(".")[0] in POSIX_ONLY]
-    assert sorted(found) == [("cost.py", "resource"), ("lock.py", "fcntl")]
+    assert sorted(found) == [
+        ("cost.py", "resource"),
+        ("lock.py", "fcntl"),
+        ("memory.py", "resource"),
+    ]

@@ -21,6 +21,7 @@ STAGE_COLOURS = {
     "audit": ("#fbeeef", "#f1bcc1"),
     "explorer": ("#eff7e6", "#cbe3a8"),
     "report": ("#f2f2f2", "#d5d5d5"),
+    "store": ("#e8ecf0", "#bcc8d4"),
 }
 OTHER = ("#ffffff", "#eeeeee")
 PITCH = (2.3, 0.58)  # from box to box, in inches

@@ -16,7 +16,7 @@ def test_sections_are_those_of_the_settings():
     chosen = SynthesisSettings.of(settings)
     assert chosen.kinematics is settings.kinematics
     assert set(SynthesisSettings.model_fields) == {
-        "kinematics", "transitions", "durations", "synthesis",
+        "kinematics", "transitions", "durations", "synthesis", "samples",
     }  # fmt: skip
     with pytest.raises(ValidationError):
         chosen.kinematics.longest_gap_s = 1.0
