@@ -64,8 +64,7 @@ def _oddities(frame: pd.DataFrame, about: pd.DataFrame, plausibility: pd.DataFra
     out: dict[str, list[tuple[int, str]]] = {name: [] for name in frame["recording"]}
     for row in plausibility[plausibility["verdict"] == "implausible"].itertuples():
         if row.recording in out:
-            told = f"{row.check}: {_beside(row)} {row.unit} (plausible {row.low:g} to {row.high:g})"
-            out[row.recording].append((1, told))
+            out[row.recording].append((1, _implausible(row)))
     for row in frame.itertuples():
         if row.gap_share > MUCH_MISSING:
             out[row.recording].append((2, f"{row.gap_share:.0%} of all positions missing"))
@@ -94,6 +93,12 @@ def _oddities(frame: pd.DataFrame, about: pd.DataFrame, plausibility: pd.DataFra
             word = "longer" if side > 0 else "shorter"
             out[name].append((2, told.format(word=word, value=value)))
     return out
+
+
+def _implausible(row: Any) -> str:
+    if row.low == row.high:  # a count of what should not be there
+        return f"{row.check}: {row.value:g} (expected {row.low:g})"
+    return f"{row.check}: {_beside(row)} {row.unit} (plausible {row.low:g} to {row.high:g})"
 
 
 def _beside(row: Any) -> str:
