@@ -117,7 +117,8 @@ def refine_posterior(
         into[usable] = quantiles(p, tagged.grid_s, levels, tagged.step_s)[boundary_of]
     away = np.abs(tagged.grid_s - times[:, None])
     found.off[usable] = np.where(away > OFF_S, p, 0).sum(axis=1)[boundary_of]
-    found.own_minimum[usable] = 1 - joint[:, 0].sum(axis=1)[boundary_of]
+    with_none = np.minimum(joint[:, 0].sum(axis=1), 1.0)  # rounding
+    found.own_minimum[usable] = 1 - with_none[boundary_of]
     return found
 
 

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from signkin.coarticulation.posture import euclidean_distance, geodesic_distance
 from signkin.errors import SignkinError
 
+AT_ONCE = 500_000  # distances of joints
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Candidates:
@@ -32,6 +34,15 @@ class Candidates:
         """Return N."""
         return len(self.first)
 
+    def some(self, rows: slice) -> Candidates:
+        """Return some of them."""
+        turns = (self.first_turns, self.last_turns)
+        first_turns, last_turns = (None if t is None else t[rows] for t in turns)
+        return Candidates(
+            first=self.first[rows], last=self.last[rows],
+            first_turns=first_turns, last_turns=last_turns,
+        )  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Scale:
@@ -48,8 +59,18 @@ class Scale:
 def distances(before: Candidates, after: Candidates, scale: Scale) -> NDArray[np.float64]:
     """Return the mean distance from each last posture to each first posture, (N before, N after).
 
-    Pairs with gaps at every joint are infinitely far.
+    Pairs with gaps at every joint are infinitely far. Some rows at a time: of all pairs at once,
+    those of a thousand signs would take gigabytes.
     """
+    rows = max(1, AT_ONCE // max(1, len(after) * before.last.shape[-2]))
+    parts = [
+        _distances(before.some(slice(i, i + rows)), after, scale)
+        for i in range(0, len(before), rows)
+    ]
+    return np.concatenate(parts) if parts else np.empty((0, len(after)))
+
+
+def _distances(before: Candidates, after: Candidates, scale: Scale) -> NDArray[np.float64]:
     values = euclidean_distance(before.last[:, None], after.first[None]) / scale.euclidean
     if (
         scale.geodesic_rad is not None

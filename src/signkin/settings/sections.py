@@ -415,8 +415,8 @@ class Report(Section):
     """The pages of a run."""
 
     explorer_recordings: Annotated[int, Field(ge=1)] | None = key(
-        250, "Recordings of a corpus that get a page of their own, at most: half of them those with "
-        "the most to look at, the others spread over the corpus; null: all.",
+        200, "Recordings of a corpus that get a page of their own, at most: half of them those "
+        "with the most to look at, the others spread over the corpus; null: all.",
     )  # fmt: skip
 
 
