@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from signkin.binning import lanes
-from signkin.binning.jit import helper, kernel
 from signkin.binning.lanes import (
     any_above,
     exp_in_place,
@@ -20,6 +19,7 @@ from signkin.binning.lanes import (
 )
 from signkin.binning.room import MOST_KEPT, Room
 from signkin.binning.stale import STAMP, forget_stale
+from signkin.jit import helper, kernel
 
 A = np.array([1.5, -2.0, 0.0, 1e300, -1e-300, np.inf, 3.0, 7.25])
 B = np.array([0.5, 4.0, -1.0, 2.0, 3.0, 1.0, 3.0, -0.125])

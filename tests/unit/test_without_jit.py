@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from signkin.binning.jit import JIT_OFF
+from signkin.jit import JIT_OFF
 from support import small_fits
 
 pytestmark = pytest.mark.skipif(JIT_OFF, reason="this is the run with the JIT off")

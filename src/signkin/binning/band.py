@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning.counts import UNDERFLOW, price_of_boundary
-from signkin.binning.jit import kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -27,6 +26,7 @@ from signkin.binning.lanes import (
 )
 from signkin.binning.log_domain import NEGLIGIBLE
 from signkin.binning.sum_product import SLOW
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import kernel
 from signkin.binning.lanes import WIDTH, exp, larger, load, splat, store
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741

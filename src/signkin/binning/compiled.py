@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from signkin import jit
 from signkin.binning import segments
 from signkin.binning.fitting import EVERY_COUNT_UP_TO, fit, log_evidence
 from signkin.binning.hit_rate import chance_line, hit_rate, match
-from signkin.binning.jit import JIT_OFF
 from signkin.binning.prior import Prior
 from signkin.binning.shifted import shifted_hits
 from signkin.binning.stale import forget_stale
@@ -23,7 +23,6 @@ KERNELS = (
     "evidence_alone",
     "evidence_layout",
     "exact",
-    "jit",
     "lanes",
     "lanes_llvm",
     "lanes_numpy",
@@ -43,11 +42,12 @@ def forget_stale_kernels() -> bool:
     To be called before jobs that use the kernels: numba itself would go on with old code (see
     stale.py). Returns whether there was something to forget.
     """
-    if JIT_OFF:
+    if jit.JIT_OFF:
         return False
     dispatcher: Any = segments.segment_evidence
     folder = Path(str(dispatcher.stats.cache_path))
-    return forget_stale(folder, [Path(__file__).with_name(f"{name}.py") for name in KERNELS])
+    sources = [Path(__file__).with_name(f"{name}.py") for name in KERNELS]
+    return forget_stale(folder, [*sources, Path(jit.__file__)])
 
 
 def compile_kernels() -> None:

@@ -16,10 +16,10 @@ from signkin.binning.best_path import (
     scaled_evidence,
     settle_penalties,
 )
-from signkin.binning.jit import helper, kernel
 from signkin.binning.lanes import WIDTH, aligned, exp, load, splat, store, where_above
 from signkin.binning.log_domain import NEGLIGIBLE, log_posterior, log_ways
 from signkin.binning.sum_product import segment_probabilities, ways_from, ways_on
+from signkin.jit import helper, kernel
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741

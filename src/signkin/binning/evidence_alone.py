@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from signkin.binning.counts import _log_sum, fill_counts
 from signkin.binning.evidence import ROOM
-from signkin.binning.jit import kernel
 from signkin.binning.lanes import WIDTH
 from signkin.binning.segmentation_prior import log_prior_of
 from signkin.binning.sum_product import columns_for
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import inlined
 from signkin.binning.lanes import WIDTH, load, store, transpose
+from signkin.jit import inlined
 
 F = NDArray[np.float64]
 

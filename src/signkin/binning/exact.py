@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning.evidence_layout import write_evidence
-from signkin.binning.jit import inlined, kernel
 from signkin.binning.lanes import WIDTH, aligned, load, log, splat, store
+from signkin.jit import inlined, kernel
 
 F = NDArray[np.float64]
 

@@ -29,8 +29,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import JIT_OFF, helper
 from signkin.binning.lanes_numpy import ROUND, WIDTH
+from signkin.jit import JIT_OFF, helper
 
 if TYPE_CHECKING or JIT_OFF:
     from signkin.binning.lanes_numpy import (

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -22,6 +21,7 @@ from signkin.binning.lanes import (
     store,
     where_above,
 )
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 

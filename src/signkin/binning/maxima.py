@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signkin.binning.jit import kernel
+from signkin.jit import kernel
 
 CLEARANCE_BINS = 3
 DIGITS_2 = 30  # binary digits, nine decimal ones, to which probabilities are compared

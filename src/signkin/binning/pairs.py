@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import helper, kernel
+from signkin.jit import helper, kernel
 
 Floats = NDArray[np.float64]
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -25,6 +24,7 @@ from signkin.binning.lanes import (
     store,
     total,
 )
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import kernel
+from signkin.jit import kernel
 
 F = NDArray[np.float64]
 

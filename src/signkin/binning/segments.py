@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from signkin.binning.evidence_layout import write_evidence
 from signkin.binning.exact import append_exactly
-from signkin.binning.jit import helper, inlined, kernel
 from signkin.binning.lanes import (
     WIDTH,
     aligned,
@@ -29,6 +28,7 @@ from signkin.binning.lanes import (
     total,
     transpose,
 )
+from signkin.jit import helper, inlined, kernel
 
 F = NDArray[np.float64]
 I = NDArray[np.int64]  # noqa: E741

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.jit import helper, inlined, kernel
 from signkin.binning.lanes import any_above, larger, load, splat, store, where_above
+from signkin.jit import helper, inlined, kernel
 
 F = NDArray[np.float64]
 

@@ -5,25 +5,16 @@ Apart from its caller, so that numba is imported where it is wanted only.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from signkin.jit import kernel
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
-Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
-def compiled(function: Kernel) -> Kernel:
-    """Compile a function and keep its machine code; sums keep their order."""
-    made: Any = njit(cache=True, nogil=True, error_model="numpy")(function)
-    return made
-
-
-@compiled
+@kernel
 def _beside(
     mass: Floats, shift: int, theirs: Whole, ours: Whole, out: Floats, until: Floats
 ) -> None:
@@ -57,7 +48,7 @@ def _beside(
             out[a, i] = max(out[a, i], 0.0)
 
 
-@compiled
+@kernel
 def forward_backward(weights: Floats, first: Whole, own: Whole) -> tuple[Floats, float]:
     """Return the probabilities (K, A, W) and the log of the sum, as `tag_order.in_order` does."""
     tags, minima, width = weights.shape
