@@ -19,6 +19,9 @@ except SignkinError as error:
 # Each rule takes the sections that it needs, so that a changed key reruns what depends on it alone.
 SETTINGS = PLAN.settings
 
+# The longest job of a run, order_choices, stands at the end of a chain of jobs: they go first.
+LONGEST_CHAIN = 20
+
 
 wildcard_constraints:
     corpus="[A-Za-z0-9._-]+",

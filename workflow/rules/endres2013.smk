@@ -7,9 +7,7 @@ from signkin.studies.endres2013.settings import (
     ReadingSettings,
 )
 
-# The longest job of a run, order_choices, stands at the end of a chain of jobs: they go first. A job
-# of binning has one core: threads that share a Python wait for one another longer than they win.
-LONGEST_CHAIN = 20
+# A job of binning has one core: threads that share a Python wait for one another longer than they win.
 ENDRES_EXHIBITS = exhibits(PLAN.papers / "endres2013")
 
 

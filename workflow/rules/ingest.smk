@@ -13,7 +13,7 @@ rule ingest:
         excluded="<results>/{corpus}/shards/{shard}/excluded_reading.csv",
     log:
         "<logs>/{corpus}/{shard}/ingest.log",
-    priority: 20  # the longest chain of jobs (endres2013.smk) starts here
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("stages/ingest.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),

@@ -7,7 +7,7 @@ rule compile_kernels:
         touch("<results>/endres2013/kernels.done"),
     log:
         "<logs>/endres2013/kernels.log",
-    priority: 20  # the longest chain of jobs (endres2013.smk) starts here
+    priority: LONGEST_CHAIN
     params:
         code=PLAN.digest("stages/compile_kernels.py"),
     script:

@@ -46,7 +46,7 @@ if "isl-sim" in PLAN.simulated:
             true_path=f"<results>/{ISL_SIM}/simulated/true_path.parquet",
         log:
             f"<logs>/{ISL_SIM}/simulate.log",
-        priority: 20  # the longest chain of jobs (endres2013.smk) starts here
+        priority: LONGEST_CHAIN
         params:
             code=PLAN.digest("stages/simulate_isl.py"),
             corpus=lambda w: str(PLAN.corpora[ISL_SIM].folder),
