@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -155,6 +155,14 @@ def sentence(text: str) -> str:
     return (own or lines or [""])[-1].removeprefix("signkin: ")
 
 
+def row_of_many(fault: str, done: str, found: Sequence[tuple[str, bool]]) -> Row:
+    """Return the row of a fault that was tried several times; found: as `Bench.then` tells."""
+    kept = sum(ok for _, ok in found)
+    worst = next((then for then, ok in found if not ok), "")
+    told = f"{kept} of {len(found)} equal bytes" + (f"; {worst}" if worst else "")
+    return Row(fault, done, told, kept == len(found))
+
+
 # --- kills and signals -------------------------------------------------------------------------
 
 
@@ -169,12 +177,8 @@ def kill_of_all(bench: Bench, number: int, of: int) -> tuple[str, bool]:
 
 def kills(bench: Bench, count: int) -> Iterator[Row]:
     found = [kill_of_all(bench, number, count) for number in range(count)]
-    kept = sum(ok for _, ok in found)
-    worst = next((then for then, ok in found if not ok), "")
-    yield Row(
-        "all processes killed", f"{count} runs, at evenly spread moments; again on one core",
-        f"{kept} of {count} equal bytes" + (f"; {worst}" if worst else ""), kept == count,
-    )  # fmt: skip
+    done = f"{count} runs, at evenly spread moments; again on one core"
+    yield row_of_many("all processes killed", done, found)
 
 
 ENDED = "results/mini/recordings/0001.parquet"  # the first thing that is made of the corpus
@@ -253,12 +257,8 @@ def job_killed(bench: Bench, number: int) -> tuple[str, bool]:
 
 def jobs_killed(bench: Bench, count: int = 5) -> Iterator[Row]:
     found = [job_killed(bench, 1 + number) for number in range(count)]
-    kept = sum(ok for _, ok in found)
-    worst = next((then for then, ok in found if not ok), "")
-    yield Row(
-        "a single job killed", f"{count} runs, the 1st to {count}th job; the run fails and says so",
-        f"{kept} of {count} equal bytes" + (f"; {worst}" if worst else ""), kept == count,
-    )  # fmt: skip
+    done = f"{count} runs, the 1st to {count}th job; the run fails and says so"
+    yield row_of_many("a single job killed", done, found)
 
 
 def second_run(bench: Bench) -> Iterator[Row]:
