@@ -117,8 +117,8 @@ def fill_counts(
     """Fill log_by_count[M] (C, 8) = ln(P(M) P(D | M)) and leave a pass ready for the posteriors.
 
     log_prior: (C,) log of P(M) and of one segmentation with M boundaries. wanted: (8,) whether a
-    lane is. likely: whether counts of no weight may be left at -inf. spare_ways, spare: scratch; the
-    others are filled with what belongs to a pass whose penalties suit the posterior.
+    lane is. likely: whether counts of no weight may be left at -inf. spare_ways, spare: scratch;
+    the others are filled with what belongs to a pass whose penalties suit the posterior.
     """
     bins = evidence.shape[0]
     counts = len(log_prior)
