@@ -11,7 +11,7 @@ import hypothesis
 import pytest
 
 from signkin.binning.compiled import forget_stale_kernels
-from support.runs import Run, checked, prepare, run
+from support.runs import QUICK, Run, checked, prepare, run
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -20,9 +20,24 @@ hypothesis.settings.register_profile("signkin", deadline=None)
 hypothesis.settings.load_profile("signkin")
 
 
+# Whole runs go first: with several workers, the last of them would be waited for. One worker
+# begins with the run that compiles the kernels of binning, the other with what wants none, or
+# both would compile them. The longest stand next.
+FIRST = (
+    "test_synthesis", "test_slurm", "test_bad_input", "test_real", "test_what_cannot_be_made",
+    "test_simulated", "test_adding_a_corpus", "test_endres", "test_audit", "test_real_signs",
+)  # fmt: skip
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put whole runs first: with several workers, the last of them would be waited for."""
-    items.sort(key=lambda item: "workflow" not in item.path.parts)
+    """Put whole runs first, in the order of FIRST."""
+    items.sort(key=lambda item: _turn(item.path))
+
+
+def _turn(module: Path) -> int:
+    if "workflow" not in module.parts:
+        return len(FIRST) + 1
+    return FIRST.index(module.stem) if module.stem in FIRST else len(FIRST)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -72,7 +87,8 @@ def simulated_run(tmp_path_factory) -> Run:
         fcntl.flock(lock, fcntl.LOCK_EX)
         told = base / "simulated-run.txt"
         if not told.exists():
-            text = checked(run(prepare(folder), "--cores", "2")).text
+            prepare(folder, binning={**QUICK["binning"], "bins": 40})  # 100: test_real_signs.py
+            text = checked(run(folder, "--cores", "2")).text
             told.write_text(text, encoding="utf-8")
         return Run(folder, 0, told.read_text(encoding="utf-8"))
 

@@ -47,7 +47,7 @@ def _names(body: list[ast.stmt]) -> Iterator[str]:
     for statement in body:
         if isinstance(statement, ast.If) and ast.unparse(statement.test).endswith("TYPE_CHECKING"):
             continue
-        for node in ast.walk(statement):
+        for node in _statements(statement):
             if isinstance(node, ast.Import):
                 yield from (alias.name for alias in node.names)
             elif isinstance(node, ast.ImportFrom) and node.module:
@@ -55,17 +55,29 @@ def _names(body: list[ast.stmt]) -> Iterator[str]:
                 yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
-def _files_of(name: str) -> Iterator[Path]:
-    """Yield the files that importing a dotted name runs: each package on the way, the module."""
+def _statements(outer: ast.AST) -> Iterator[ast.AST]:
+    """Yield a statement and those inside it, but no expressions, which are most of a tree."""
+    yield outer
+    for field in ("body", "orelse", "finalbody", "handlers", "cases"):
+        inner = getattr(outer, field, ())
+        for one in inner if isinstance(inner, list) else ():  # a lambda's body is no list
+            yield from _statements(one)
+
+
+@cache
+def _files_of(name: str) -> tuple[Path, ...]:
+    """Return the files that importing a dotted name runs: each package on the way, the module."""
     parts = name.split(".")
     if parts[0] != PACKAGE.name:
-        return
+        return ()
+    found = []
     for depth in range(1, len(parts) + 1):
         base = PACKAGE.joinpath(*parts[1:depth])
-        if (base / "__init__.py").is_file():
-            yield base / "__init__.py"
-        elif base.with_suffix(".py").is_file():
-            yield base.with_suffix(".py")
+        for path in (base / "__init__.py", base.with_suffix(".py")):
+            if path.is_file():
+                found.append(path)
+                break
+    return tuple(found)
 
 
 def _with_data_files(modules: set[Path]) -> set[Path]:
@@ -74,8 +86,13 @@ def _with_data_files(modules: set[Path]) -> set[Path]:
     Not those of caches: what numba compiles lies in one from the first run on.
     """
     packages = {m.parent for m in modules if m.name == "__init__.py" and m.parent != PACKAGE}
-    data = (p for package in packages for p in package.rglob("*") if p.is_file())
-    return modules | {p for p in data if p.suffix != ".py" and "__pycache__" not in p.parts}
+    return modules.union(*(_data_files(package) for package in packages))
+
+
+@cache
+def _data_files(package: Path) -> tuple[Path, ...]:
+    files = (p for p in package.rglob("*") if p.suffix != ".py" and "__pycache__" not in p.parts)
+    return tuple(p for p in files if p.is_file())
 
 
 def commit() -> str:
