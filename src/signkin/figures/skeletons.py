@@ -42,7 +42,8 @@ def plot_posture(
     ends = np.array(bones(joints), dtype=int).reshape(-1, 2)
     thin = [0.55 if a in fine or b in fine else 1.0 for a, b in ends.tolist()]
     lines = LineCollection(
-        np.stack([x[ends], z[ends]], axis=-1), colors=colour, linewidths=width * np.array(thin),
+        list(np.stack([x[ends], z[ends]], axis=-1)), colors=colour,
+        linewidths=[width * t for t in thin],
         alpha=alpha, capstyle="round", zorder=2, label=label if len(ends) else None,
     )  # fmt: skip
     ax.add_collection(lines)
