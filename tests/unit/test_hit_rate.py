@@ -1,3 +1,5 @@
+import sys
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -130,6 +132,23 @@ def test_eq_17_is_pooled():
     assert found == hpfpps([GOOD, FALSE, BOTH, NO_TRUTH], 0, draws=500)
     # (1/3)^3 of the bootstrap's draws take GOOD three times
     assert found.unbounded / 500 == pytest.approx(1 / 27, abs=0.03)
+
+
+def test_draws_of_some_trajectories_tell_what_draws_of_all_would(monkeypatch):
+    rng = np.random.default_rng(5)
+    counts = zip(rng.integers(0, 5, 400), rng.integers(1, 4, 400), rng.integers(0, 4, 400),
+                 strict=True)  # fmt: skip
+    rates = [HitRate(int(h), int(m), int(f), 1.0 + i / 400) for i, (h, m, f) in enumerate(counts)]
+    whole = hpfpps(rates, 3)
+    monkeypatch.setattr(sys.modules[HitRate.__module__], "MOST_DRAWN", 100)
+    some = hpfpps(rates, 3)
+    assert some.value == whole.value and some.se != whole.se
+    assert some.se == pytest.approx(whole.se, rel=0.1)
+    widths = [found.high - found.low for found in (some, whole)]
+    assert widths[0] == pytest.approx(widths[1], rel=0.1)
+    assert some.low < some.value < some.high
+    no_false = hpfpps([HitRate(1, 1, 0, 1.0)] * 101, 3)  # an infinite end stays one
+    assert (no_false.low, no_false.high, no_false.unbounded) == (np.inf, np.inf, 2000)
 
 
 def test_eq_17_without_false_positives_hits_or_truth():

@@ -238,6 +238,20 @@ def test_the_printed_first_gain_is_speed_and_curvature_of_the_first_sample(sign)
     assert warped == pytest.approx(first, rel=0.1)
 
 
+@pytest.mark.parametrize("first_gain", ["duration", "first_sample"])
+def test_draws_that_are_clearly_rejected_are_so_for_the_same_reason(sign, first_gain):
+    from signkin.powerlaw.ground_truth import _clearly, _draw, _Path, _Timing, _timing
+
+    settings = WarpSettings(first_gain=first_gain)
+    path, rng = _Path(sign, 240.0, settings), np.random.default_rng(3)
+    draws = _draw(path, path.time_s[-1] - 3 * settings.least_segment_s - 0.01, 300, rng, settings)
+    asked = [(_clearly(path, draws, i, settings), _timing(path, draws, i, settings))
+             for i, reason in enumerate(draws.rejected) if not reason]  # fmt: skip
+    assert len({clear for clear, _ in asked}) > 1
+    for clear, told in asked:
+        assert clear == ("" if isinstance(told, _Timing) else told)
+
+
 def test_a_pause_inside_is_passed():
     """A hand that stands still has a place on the path and no time of its own."""
     sign = minimum_jerk_sign(np.random.default_rng(2), noise_sd=0)

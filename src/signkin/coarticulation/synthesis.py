@@ -14,6 +14,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -230,9 +231,18 @@ def _joined(recording: Recording) -> bool:
     return recording.orientation_source == "recorded" and recording.parents is not None
 
 
+_BONES: WeakKeyDictionary[Recording, NDArray[np.float64]] = WeakKeyDictionary()
+
+
 def _bones(recording: Recording) -> NDArray[np.float64]:
     """Return the median shift of each joint in its parent's frame, (J, 3)."""
-    return np.asarray(np.nanmedian(_whole(recording).shifts, axis=0))
+    # Kept as long as the recording is: it is asked for with each other recording.
+    if recording not in _BONES:
+        shifts = _whole(recording).shifts
+        # The same numbers: without gaps in less than half of the time.
+        median = np.nanmedian if np.isnan(shifts).any() else np.median
+        _BONES[recording] = np.asarray(median(shifts, axis=0))
+    return _BONES[recording]
 
 
 def _with_bones(recording: Recording, bones: NDArray[np.float64]) -> Recording:

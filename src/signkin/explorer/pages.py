@@ -14,7 +14,6 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 import signkin
-from signkin.explorer.choice import chosen
 from signkin.explorer.content import as_json, content
 from signkin.explorer.sources import Sources
 from signkin.io.store import read_recordings
@@ -48,7 +47,7 @@ def write_pages(sources: Sources, folder: Path, listing: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     troubles = sources.troubles()
-    names = chosen(sources.names(), sources.gravity(), sources.settings.most_recordings)
+    names = sources.shown()
     beside = dict(zip(names, zip([None, *names], [*names[1:], None], strict=False), strict=True))
     for name, data in _contents(sources, names):
         html = render(data, *beside[name], listing.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import pandas as pd
 
 from signkin import tables
 from signkin.corpus import Corpus
+from signkin.explorer.choice import chosen
 from signkin.explorer.densities import DensitySettings
 from signkin.io.store import recording_names
 from signkin.settings import Settings
@@ -22,6 +23,9 @@ from signkin.studies.naert2017.settings import SynthesisSettings
 SHARED = ("recordings", "intervals", "minima", "plausibility", "excluded")
 OTHERS = ("boundaries", "boundary_posteriors", "transitions", "synthesis",
           "wrist_boundaries", "wrist_posteriors")  # fmt: skip
+
+# Those that tell which recordings get a page.
+CHOOSING = ("recordings", "plausibility", "excluded", "boundaries", "transitions")
 
 NOWHERE_S = 1000.0  # how far from a minimum a tag counts where there is no minimum at all
 
@@ -76,6 +80,10 @@ class Sources:
         """Return the recordings with motion, in the order of the corpus."""
         return [name for path in self.recordings for name in recording_names(path)]
 
+    def shown(self) -> list[str]:
+        """Return the recordings that get a page, as many as report.explorer_recordings allows."""
+        return chosen(self.names(), self.gravity(), self.settings.most_recordings)
+
     def troubles(self) -> dict[str, int]:
         """Return how much there is to look at in each recording: recording -> number."""
         found: dict[str, int] = {}
@@ -95,9 +103,7 @@ class Sources:
         out = {name: count / 1e6 for name, count in self.troubles().items()}
         tags = self.tables.get("boundaries")
         if tags is not None and len(tags):
-            nearest = tags.groupby(["recording", "sign", "edge"]).agg(
-                far=("status", lambda found: set(found) == {"far"}), away=("distance_s", "min")
-            )
+            nearest = _nearest(tags)
             away = nearest["away"].fillna(NOWHERE_S).where(nearest["far"], 0.0)
             for name, most in away.groupby("recording").max().items():
                 out[str(name)] = out.get(str(name), 0.0) + float(most)
@@ -117,9 +123,8 @@ class Sources:
             rows = self.tables["transitions"]
             whole = (rows["segmentation"] == "manual") & (rows["hand"] == "both")
             yield rows[whole & (rows["status"] != "ok")]
-            tags = self.tables["boundaries"]
-            nearest = tags.groupby(["recording", "sign", "edge"])["status"].agg(set).reset_index()
-            yield nearest[nearest["status"].map(lambda found: found == {"far"})]
+            nearest = _nearest(self.tables["boundaries"]).reset_index()
+            yield nearest[nearest["far"]]
 
 
 def read_sources(corpus: Corpus, settings: ExplorerSettings, files: Mapping[str, Any]) -> Sources:
@@ -128,13 +133,15 @@ def read_sources(corpus: Corpus, settings: ExplorerSettings, files: Mapping[str,
     files: recordings, frames, posteriors: a file a shard; the tables: a file each, or none for
     those that the corpus does not have.
     """
-    read = {}
-    for name in (*SHARED, *OTHERS):
-        paths = _paths(files.get(name))
-        if paths:
-            read[name] = tables.concatenated(paths, name, corpus.unit)
+    paths = {name: _paths(files.get(name)) for name in (*SHARED, *OTHERS)}
+    there = [name for name in paths if paths[name]]
+    read = {
+        name: tables.concatenated(paths[name], name, corpus.unit)
+        for name in there
+        if name in CHOOSING
+    }
     shards = {name: _paths(files.get(name)) for name in ("recordings_of", "frames", "posteriors")}
-    return Sources(
+    whole = Sources(
         corpus=corpus,
         settings=settings,
         recordings=shards["recordings_of"],
@@ -142,6 +149,20 @@ def read_sources(corpus: Corpus, settings: ExplorerSettings, files: Mapping[str,
         posteriors=shards["posteriors"],
         tables=read,
         outliers=_outliers(read.get("transitions"), settings),
+    )
+    names = whole.shown()
+    for name in there:
+        if name not in CHOOSING:  # of thousands of recordings only those with a page
+            rows = tables.concatenated(paths[name], name, corpus.unit)
+            read[name] = rows[rows["recording"].isin(names)]
+    return replace(whole, tables={name: read[name] for name in there})
+
+
+def _nearest(tags: pd.DataFrame) -> pd.DataFrame:
+    """Return of each tag, by recording, sign and edge: far from minima of both hands; away, s."""
+    marked = tags.assign(far=tags["status"] == "far")
+    return marked.groupby(["recording", "sign", "edge"]).agg(
+        far=("far", "all"), away=("distance_s", "min")
     )
 
 

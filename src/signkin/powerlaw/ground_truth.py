@@ -29,6 +29,7 @@ SPEED = "top speed of a segment not comparable"
 SHORT = "segment too short after warping"
 DURATION = "duration of a segment not comparable"
 NOT_FOUND = "law not found again on the samples"
+CLEAR = ("", SPEED, SHORT, DURATION)  # by the numbers of screening.py
 REASONS = (EXPONENTS, SPEED, SHORT, DURATION, NOT_FOUND)
 
 NODES_HZ = 960.0  # the path is integrated at least this finely ...
@@ -179,6 +180,7 @@ def warp_to_power_law(
     for first in range(0, settings.most_draws, BLOCK):
         draws = _draw(path, spare, min(BLOCK, settings.most_draws - first), rng, settings)
         for i, reason in enumerate(draws.rejected):
+            reason = reason or _clearly(path, draws, i, settings)
             found: GroundTruth | _Timing | str = reason or _timing(path, draws, i, settings)
             if isinstance(found, _Timing):
                 found = _sampled(path, found, active, rate_hz, settings)
@@ -319,6 +321,18 @@ def _draw(path: _Path, spare: float, n: int, rng: np.random.Generator, s: WarpSe
     hopeless = spread > 2 * np.log(s.most_speed_ratio)
     rejected = np.where(alike, EXPONENTS, np.where(hopeless, SPEED, ""))
     return _Draws(nodes, beta, log_gain, log_top, top_recorded, rejected.tolist())
+
+
+def _clearly(path: _Path, draws: _Draws, i: int, s: WarpSettings) -> str:
+    """Return why draw i is clearly rejected; empty where `_timing` has to tell."""
+    from signkin.powerlaw import screening  # numba, half a second for those who only fit laws
+
+    found = screening.verdict(
+        draws.nodes[i], draws.beta[i], draws.log_gain[i], draws.log_top[i], draws.top_recorded[i],
+        path.speed, path.log_k, path.time_s, s.first_gain == "duration",
+        float(s.most_speed_ratio), float(s.least_segment_s), float(s.most_duration_ratio),
+    )  # fmt: skip
+    return CLEAR[found]
 
 
 def _timing(path: _Path, draws: _Draws, i: int, s: WarpSettings) -> _Timing | str:

@@ -202,3 +202,5 @@ def test_trajectories_come_back_from_their_files(tmp_path):
             b.recording, b.hand, b.dataset, b.bin_s,
         )  # fmt: skip
         assert (a.x == b.x).all() and (a.boundaries_s == b.boundaries_s).all()
+    some = read_trajectories([tmp_path / f"{n}.parquet" for n in names], dataset="powerlaw")
+    assert [t.recording for t in some] == [t.recording for t in cut if t.dataset == "powerlaw"]

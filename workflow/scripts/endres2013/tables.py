@@ -5,7 +5,7 @@ with job(snakemake, analysis=True):
 
     from signkin import tables
     from signkin.corpus import load_corpus
-    from signkin.studies.endres2013.single_signs import read_trajectories
+    from signkin.studies.endres2013.single_signs import POWERLAW, read_trajectories
     from signkin.studies.endres2013.summaries import summaries
 
     source, out, params = snakemake.input, snakemake.output, snakemake.params
@@ -17,8 +17,7 @@ with job(snakemake, analysis=True):
     made["binning_left_out"] = tables.concatenated(
         [*source.not_cut, *source.not_binned], "binning_left_out", corpus.unit
     )
-    made |= summaries(
-        corpus.name, made, read_trajectories(source.trajectories), params.settings, params.seed
-    )
+    true = read_trajectories(source.trajectories, dataset=POWERLAW)
+    made |= summaries(corpus.name, made, true, params.settings, params.seed)
     for name, table in made.items():
         tables.write_table(table, out[name], name, corpus.unit)

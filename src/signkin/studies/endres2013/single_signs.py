@@ -287,11 +287,15 @@ def write_trajectories(path: str | Path, trajectories: Sequence[Trajectory]) -> 
     pq.write_table(table, path, compression="zstd")
 
 
-def read_trajectories(paths: Iterable[str | Path]) -> list[Trajectory]:
-    """Read trajectories that `write_trajectories` wrote, of several files in their order."""
+def read_trajectories(paths: Iterable[str | Path], **of: str) -> list[Trajectory]:
+    """Read trajectories that `write_trajectories` wrote, of several files in their order.
+
+    of: what they must be, such as dataset="powerlaw" or recording="r0001"; the others stay unread.
+    """
     out = []
+    wanted = [(column, "==", value) for column, value in of.items()] or None
     for path in paths:
-        for row in pq.read_table(path).to_pylist():
+        for row in pq.read_table(path, filters=wanted).to_pylist():
             x = np.asarray(row["x"], dtype=float).reshape(-1, row["dimensions"])
             out.append(
                 Trajectory(

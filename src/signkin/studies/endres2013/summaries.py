@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from signkin import tables
 from signkin.binning.hit_rate import (
+    MOST_DRAWN,
     ChanceLine,
     GroupRates,
     HitRate,
@@ -132,21 +133,25 @@ def chance_of(
 class Drawn:
     """What was drawn at random for a group. Other readings of it draw the same: it is kept.
 
-    Groups are told by the seed, the corpus and their names, of which the stream is made.
+    Groups are told by the seed, the corpus and their names, of which the stream is made. keep:
+    whether there are other readings; of a large corpus what is kept would take most of the memory.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, keep: bool = True) -> None:
+        self._keep = keep
         self._weights: dict[tuple[Any, ...], NDArray[Any]] = {}
         self._lines: dict[tuple[Any, ...], ChanceLine] = {}
 
     def weights(self, group: tuple[Any, ...]) -> Weights:
         """Return what gives the bootstrap's weights of n trajectories of a group."""
 
-        def weigh(n: int, draws: int) -> NDArray[np.int64]:
+        def weigh(n: int, draws: int) -> Any:
             key = (*group, n, draws)
             if key not in self._weights:
                 seed, corpus, *names = group
                 drawn = bootstrap_weights(stream(seed, corpus, "bootstrap", *names), n, draws)
+                if not self._keep or n > MOST_DRAWN:
+                    return drawn
                 self._weights[key] = drawn.astype(np.min_scalar_type(n))  # an eighth of the room
             return self._weights[key].astype(np.int64)
 
@@ -175,7 +180,7 @@ def hit_rates(
     truths: (dataset, true order, recording) -> known boundaries in s. parts: signers and signs
     apart, too. drawn: what other readings of the same groups have drawn, and this one adds.
     """
-    kept = Drawn() if drawn is None else drawn
+    kept = Drawn(keep=False) if drawn is None else drawn
     rate_rows, chance_rows = [], []
     for key, part in groups(binning[binning["dataset"] != RECORDED], parts):
         name = tuple(str(value) for value in key.values())

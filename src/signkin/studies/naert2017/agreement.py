@@ -38,9 +38,10 @@ def agreement(
 
     folder: of the data. about, intervals, minima, sign_types: tables of these names (about:
     `recordings`). window_s: of the paper's rule. most: neighbouring signs of the recordings taken
-    (`sampling.sample`). Recordings that an annotator did not tag are left out and told.
+    (`sampling.sample`), by halves: each draw of chance refines all of them anew. Recordings that an
+    annotator did not tag are left out and told.
     """
-    chosen = sample(corpus.name, about["recording"].astype(str), intervals, most, seed)
+    chosen = sample(corpus.name, about["recording"].astype(str), intervals, most // 2, seed)
     about = chosen.rows(about)
     rates = dict(zip(about["recording"].astype(str), about["rate_hz"], strict=True))
     tags, lows = tables.ByRecording(intervals), tables.ByRecording(minima)

@@ -91,9 +91,7 @@ def _example(
         raise no_truth(corpus.folder)
     name = str(truth["recording"].iloc[0])
     (recording,) = (r for path in shards["recordings"] for r in read_recordings(Path(path), [name]))
-    binned = {
-        t.dataset: t.x for t in read_trajectories(shards["trajectories"]) if t.recording == name
-    }
+    binned = {t.dataset: t.x for t in read_trajectories(shards["trajectories"], recording=name)}
     return Example(
         name,
         movement_of(recording, settings).wrist.axes,

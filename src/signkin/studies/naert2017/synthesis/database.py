@@ -223,12 +223,15 @@ def load_database(
 ) -> tuple[Database, pd.DataFrame, Sample]:
     """Read canonical recordings and tags, those left out aside; returns as `sign_database`.
 
-    Of a large corpus a sample is taken, which is returned as well, with a recording of each of
-    the glosses in it.
+    Of a corpus beyond samples.transitions a sample of half as many is taken, since each is made
+    anew some 16 times. It is returned as well, with a recording of each of the glosses in it.
     """
     without = set(tables.read_table(excluded, "excluded")["recording"])
     names = [name for file in files for name in recording_names(Path(file)) if name not in without]
     tags = tables.read_table(intervals, "intervals")
-    chosen = sample(corpus.name, names, tags, settings.samples.transitions, seed, glosses)
+    most = settings.samples.transitions
+    chosen = sample(corpus.name, names, tags, most, seed, glosses)
+    if not chosen.whole:
+        chosen = sample(corpus.name, names, tags, most // 2, seed, glosses)
     takes = [take for file in files for take in read_recordings(Path(file), chosen.names)]
     return *sign_database(corpus, takes, tags, settings), chosen
