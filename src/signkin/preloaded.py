@@ -7,11 +7,15 @@ need them. What cannot be imported is left to the job that wants it, which tells
 from __future__ import annotations
 
 import ast
+import gc
 from contextlib import suppress
 from importlib import import_module
 from io import BytesIO
 
 from signkin.checkout import workflow_home
+
+# Objects made between two searches for cycles, of which jobs make few; Python's own number is 700.
+BETWEEN_COLLECTIONS = 20_000
 
 LIBRARIES = (
     "snakemake.script",
@@ -62,3 +66,9 @@ for name in names():
         import_module(name)
 with suppress(Exception):
     _draw()
+
+# A million objects are there by now, and stay: no job looks through them for garbage again, nor
+# writes into their pages, which the forks share.
+gc.collect()
+gc.freeze()
+gc.set_threshold(BETWEEN_COLLECTIONS, 20, 100)

@@ -17,6 +17,7 @@ import yaml
 
 from signkin.errors import SignkinError
 from signkin.text_file import text_of
+from signkin.yaml_file import composed, constructed
 
 SCHEMA = files("signkin") / "schemas" / "claims.schema.yaml"
 GUIDE = "See docs/claims.md."
@@ -42,7 +43,7 @@ def read_claims(path: Path) -> ClaimsFile:
     """Read and check claims.yaml; what is wrong with the file as a whole is an error."""
     text = text_of(path, MOST_BYTES)
     try:
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        node = composed(text)
         if node is None:
             raise SignkinError("it is empty", file=path, expected="paper and claims",
                                todo=GUIDE)  # fmt: skip
@@ -53,7 +54,7 @@ def read_claims(path: Path) -> ClaimsFile:
                 doubled.append((at, str(at[-1]), line))
             else:
                 lines[at] = line
-        content = yaml.safe_load(text)
+        content = constructed(node)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = None if mark is None else f"line {mark.line + 1}"

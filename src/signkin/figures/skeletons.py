@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon, Rectangle
 from numpy.typing import NDArray
 
@@ -38,19 +39,19 @@ def plot_posture(
     """Draw one posture, (J, 3), seen from in front: the signer's right hand is on the left."""
     x, z = -positions[:, 0], positions[:, 2]
     fine = {i for i, joint in enumerate(joints) if _is_finger(joint)}
-    first = True
-    for a, b in bones(joints):
-        thin = 0.55 if a in fine or b in fine else 1.0
-        ax.plot(
-            x[[a, b]], z[[a, b]], color=colour, lw=width * thin, alpha=alpha,
-            solid_capstyle="round", label=label if first else None,
-        )  # fmt: skip
-        first = False
+    ends = np.array(bones(joints), dtype=int).reshape(-1, 2)
+    thin = [0.55 if a in fine or b in fine else 1.0 for a, b in ends.tolist()]
+    lines = LineCollection(
+        list(np.stack([x[ends], z[ends]], axis=-1)), colors=colour,
+        linewidths=[width * t for t in thin],
+        alpha=alpha, capstyle="round", zorder=2, label=label if len(ends) else None,
+    )  # fmt: skip
+    ax.add_collection(lines)
     wrists = [i for i, joint in enumerate(joints) if joint.endswith("_wrist")]
     small = len(joints) <= 4  # hands only: points are all there is
     ax.scatter(
         x[wrists], z[wrists], s=26 if small else 6 * width, color=colour, alpha=alpha, lw=0,
-        label=label if first else None, zorder=3,
+        label=None if len(ends) else label, zorder=3,
     )  # fmt: skip
     _plot_head(positions, joints, colour, width, alpha, unit, ax)
     ax.set_aspect("equal")

@@ -87,7 +87,8 @@ def estimates(
     moving = speeds > 0
     y, x = np.log(speeds[moving]), np.log(curvatures[moving])
     r = float(np.corrcoef(x, y)[0, 1]) if np.ptp(y) > 0 else float("nan")
-    line = float(stats.linregress(x, y).slope)
+    of_x, of_both, _, _ = np.cov(x, y, ddof=0).flat
+    line = float(of_both / of_x) if of_x > 0 else NAN  # least squares
     of_speed, of_curvature = _error_variances(speeds[moving], curvatures[moving], noise_sd, gains)
     spread = float(np.var(x))
     reliability = 1 - of_curvature / spread if spread > 0 else NAN

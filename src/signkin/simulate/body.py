@@ -8,6 +8,8 @@ faces +z, so that the signer's right is -x.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
@@ -111,31 +113,38 @@ class Body:
         self._fingers = {
             s: [[index[f"{s}{f}{i}"] for i in (1, 2, 3)] for f in _FINGERS] for s in _SIDES
         }
+        self._generations = _generations(self.hierarchy.parents)
 
     def rotations(
         self, right: NDArray[np.float64], left: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Return local rotation matrices (N, J, 3, 3) for arm coordinates (N, 12) each."""
         n = len(right)
+        zero = np.zeros(n)
+        vectors = [
+            vector
+            for arm in (right, left)
+            for vector in (
+                arm[:, 0:3],
+                np.column_stack([arm[:, 4], arm[:, 3], zero]),
+                np.column_stack([zero, arm[:, 6], arm[:, 5]]),
+                *(
+                    np.column_stack([zero, zero, RELAXED_FINGERS + arm[:, 7 + f]])
+                    for f in range(len(_FINGERS))
+                ),
+            )
+        ]
+        # scipy takes longer to look at what it is given than to turn it: all at once.
+        turned = iter(_rodrigues(np.concatenate(vectors)).reshape(-1, n, 3, 3))
         out = np.tile(np.eye(3), (n, len(self.hierarchy.joints), 1, 1))
-        for side, coordinates in (("Right", right), ("Left", left)):
+        for side in _SIDES:
             flip = np.diag(_MIRROR) if side == "Left" else np.eye(3)
             arm, forearm, hand = self._arm[side]
-            zero = np.zeros(n)
-            for joint, matrix in (
-                (arm, self._home_shoulder @ _rodrigues(coordinates[:, 0:3])),
-                (
-                    forearm,
-                    self._home_elbow
-                    @ _rodrigues(np.column_stack([coordinates[:, 4], coordinates[:, 3], zero])),
-                ),
-                (hand, _rodrigues(np.column_stack([zero, coordinates[:, 6], coordinates[:, 5]]))),
-            ):
-                out[:, joint] = flip @ matrix @ flip
-            for f, joints in enumerate(self._fingers[side]):
-                bend = np.column_stack([zero, zero, RELAXED_FINGERS + coordinates[:, 7 + f]])
-                for joint in joints:
-                    out[:, joint] = flip @ _rodrigues(bend) @ flip
+            out[:, arm] = flip @ (self._home_shoulder @ next(turned)) @ flip
+            out[:, forearm] = flip @ (self._home_elbow @ next(turned)) @ flip
+            out[:, hand] = flip @ next(turned) @ flip
+            for joints in self._fingers[side]:
+                out[:, joints] = (flip @ next(turned) @ flip)[:, None]
         return out
 
     def place(
@@ -144,14 +153,15 @@ class Body:
         """Return world positions (N, J, 3) in cm and world rotations (N, J, 3, 3)."""
         positions = np.empty(rotations.shape[:3])
         world = np.empty_like(rotations)
-        for joint, parent in enumerate(self.hierarchy.parents):
-            if parent < 0:
-                positions[:, joint] = self.hierarchy.offsets[joint]
-                world[:, joint] = rotations[:, joint]
+        for joints, parents in self._generations:
+            if parents[0] < 0:
+                positions[:, joints] = self.hierarchy.offsets[joints]
+                world[:, joints] = rotations[:, joints]
             else:
-                shift = world[:, parent] @ self.hierarchy.offsets[joint]
-                positions[:, joint] = positions[:, parent] + shift
-                world[:, joint] = world[:, parent] @ rotations[:, joint]
+                above = world[:, parents]
+                shift = (above @ self.hierarchy.offsets[joints][..., None])[..., 0]
+                positions[:, joints] = positions[:, parents] + shift
+                world[:, joints] = above @ rotations[:, joints]
         return positions, world
 
     def distances(
@@ -170,6 +180,15 @@ class Body:
 
 
 _SIDES = ("Right", "Left")
+
+
+def _generations(parents: Sequence[int]) -> list[tuple[list[int], list[int]]]:
+    """Return joints as far from a root as one another, with their parents: (joints, parents)."""
+    depth: list[int] = []
+    for parent in parents:
+        depth.append(0 if parent < 0 else depth[parent] + 1)
+    joints = [[j for j, d in enumerate(depth) if d == level] for level in range(max(depth) + 1)]
+    return [(level, [parents[j] for j in level]) for level in joints]
 
 
 def _rodrigues(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
