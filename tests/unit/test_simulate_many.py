@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from signkin.__main__ import main
-from signkin.corpus import check_files, data_folder, load_corpus
+from signkin.corpus import data_folder, load_corpus
+from signkin.corpus_files import check_files
 from signkin.stages.ingest import ingest
 
 

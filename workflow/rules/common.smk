@@ -25,7 +25,7 @@ LONGEST_CHAIN = 20
 
 wildcard_constraints:
     corpus="[A-Za-z0-9._-]+",
-    shard=r"\d{4}",
+    shard=r"\d{4,}",
 
 
 def of_shards(*patterns):
