@@ -131,7 +131,7 @@ def beast(x: F, _: int) -> Boundaries:
 METHODS = (
     Method("signkin, M <= 20", "noise", partial(ours, max_count=20), (100, 1000)),
     Method("signkin, every M", "noise", ours, (100,)),
-    Method("signkin, likely M", "noise", ours, (1000,)),
+    Method("signkin, likely M", "noise", partial(ours, every_count=False), (100, 1000)),
     Method("signkin, segments <= 200 bins", "noise", partial(ours, max_segment_bins=200),
            (1000, 5000)),
     Method("signkin, order 3 only, M <= 20", "noise, order", one_order, (100, 1000)),

@@ -10,6 +10,7 @@ from scipy.special import logsumexp
 from signkin import SignkinError
 from signkin.binning import Posterior, Prior, fit, fit_many, segment_log_evidence
 from signkin.binning.band import fit_order_in_band
+from signkin.binning.fitting import log_evidence
 from signkin.binning.maxima import greedy_maxima
 from signkin.binning.segmentation_prior import log_prior_of
 
@@ -189,6 +190,30 @@ def test_fewer_counts_agree_and_the_cut_is_within_its_bound(seed, most, size):
         # The bound is on the share in terms of what was kept.
         ratio = left_out / max(1 - left_out, 1e-300)
         assert min(1.0, ratio) <= some.cut_mass[i] * (1 + 1e-9) + 1e-12
+
+
+@few
+@given(
+    seeds, st.sampled_from([None, 9, 30]), st.floats(-2, 3), st.sampled_from([None, 5.0, 1000.0]),
+    st.sampled_from([1e-3, 0.1, 10.0]),
+)  # fmt: skip
+def test_counts_that_cannot_matter_may_be_left_out(seed, longest, size, dof, concentration):
+    x, orders = walk(60, 2, seed, 10**size), (0, 2, 5)
+    prior = Prior(noise_sd=1.0, dof=dof, concentration=concentration)
+    every, some = (
+        fit(x, orders, prior, max_segment_bins=longest, every_count=each) for each in (True, False)
+    )
+    assert (some.cut_mass <= 1e-12).all() and (every.cut_mass == 0).all()
+    assert some.log_evidence == pytest.approx(every.log_evidence, rel=1e-13, abs=1e-10)
+    for order in orders:
+        assert some.map_count(order) == every.map_count(order)
+        for name in ("boundary_probability", "expected_trajectory"):
+            of_some, of_every = (getattr(one, name)(order) for one in (some, every))
+            assert of_some == pytest.approx(of_every, abs=1e-10 * 10**size + 1e-10)
+    if longest is None:
+        assert log_evidence(x, orders, prior) == pytest.approx(
+            every.log_evidence, rel=1e-13, abs=1e-10
+        )
 
 
 @pytest.mark.parametrize("longest", [None, 60])

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signkin.binning import band
-from signkin.binning.counts import fit_orders, price_of_boundary
+from signkin.binning.counts import fit_orders, likely_most, price_of_boundary
 from signkin.binning.evidence import ROOM
 from signkin.binning.lanes import WIDTH
 from signkin.binning.longer import Longer
@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 # band is widened until the bound on what it leaves out is below BAND_CUT_MASS.
 BAND = 32
 BAND_CUT_MASS = 1e-9
+LIKELY_CUT = 1e-12
 TAIL_STEPS = 4
 ROUNDING = 2e-15  # the least share that two sums can differ by and it be told
 
@@ -44,11 +45,46 @@ class Found:
 
 
 def counted(
-    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None
-) -> Found:
-    """Work out M = 0..max_count of all orders together."""
+    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, max_count: int | None,
+    likely: bool = False,
+) -> Found:  # fmt: skip
+    """Work out M = 0..max_count of all orders together.
+
+    likely: of these only those that can matter, the share of the others being below LIKELY_CUT.
+    """
     fewest = -(-bins // longest) - 1
-    most = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
+    end = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
+    most = end
+    if likely:
+        most = min(end, max(fewest, likely_count(evidence, wanted)))
+    while True:
+        found = _counted(evidence, wanted, bins, longest, most, likely)
+        if most == end or found.cut_mass.max() <= LIKELY_CUT:
+            return found
+        most = min(end, 2 * most)
+
+
+def likely_count(evidence: Floats, wanted: tuple[int, ...]) -> int:
+    """Return a number of boundaries that the likely ones hardly exceed, whatever the order."""
+    best = ROOM.array("best", evidence.shape[1] + 1, WIDTH)
+    asked = asked_lanes(len(evidence), wanted)
+    return max(
+        likely_most(evidence[g], asked[g * WIDTH : (g + 1) * WIDTH], best)
+        for g in range(len(evidence))
+    )
+
+
+def asked_lanes(groups: int, wanted: tuple[int, ...]) -> NDArray[np.int64]:
+    """Return which lanes are wanted orders, (8 groups,)."""
+    asked = np.zeros(groups * WIDTH, dtype=np.int64)
+    asked[list(wanted)] = 1
+    return asked
+
+
+def _counted(
+    evidence: Floats, wanted: tuple[int, ...], bins: int, longest: int, most: int, likely: bool
+) -> Found:
+    """Work out M = 0..most of all orders together."""
     counts = most + 1
     log_prior = np.ascontiguousarray(log_prior_of(bins, longest)[:counts])
     groups = len(evidence)
@@ -57,20 +93,19 @@ def counted(
     probability = np.empty((held, counts))
     boundary = np.empty((groups, bins, WIDTH))
     log_evidence, lost, cut = np.empty((3, held))
-    likely = ROOM.array("probabilities", *evidence.shape)
+    chances = ROOM.array("probabilities", *evidence.shape)
     best = ROOM.array("best", bins + 1, WIDTH)
     columns = columns_for(counts)
     ways = ROOM.array("ways", bins + 1, columns, WIDTH)
     before = ROOM.array("before", bins + 1, columns, WIDTH)
     spare = ROOM.array("spare", *evidence.shape[1:])
-    asked = np.zeros(held, dtype=np.int64)
-    asked[list(wanted)] = 1
+    asked = asked_lanes(groups, wanted)
     for g in range(groups):
         own = slice(g * WIDTH, (g + 1) * WIDTH)
         fit_orders(
             evidence[g], asked[own], log_prior, log_by_count[g], probability[own], boundary[g],
-            log_evidence[own], lost[own], cut[own], likely[g],
-            best, ways, before, spare,
+            log_evidence[own], lost[own], cut[own], chances[g],
+            best, ways, before, spare, likely,
         )  # fmt: skip
     rows = list(wanted)
     _refuse_lost(lost[rows])
@@ -80,7 +115,7 @@ def counted(
         np.moveaxis(boundary, 1, 2).reshape(held, bins)[rows],
         log_evidence[rows],
         cut[rows],
-        likely,
+        chances,
     )
 
 

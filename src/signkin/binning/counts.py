@@ -32,6 +32,19 @@ TAIL_WANTED = 1e-12
 
 
 @kernel
+def likely_most(evidence: F, wanted: I, best: F) -> int:
+    """Return a number of boundaries that the likely ones of the wanted lanes hardly exceed."""
+    penalty = np.full(WIDTH, math.log(len(evidence)))
+    segments = np.empty(WIDTH, dtype=np.int64)
+    best_paths(evidence, penalty, best, segments)
+    most = 0
+    for lane in range(WIDTH):
+        if wanted[lane]:
+            most = max(most, segments[lane])
+    return most + most // 2 + 12
+
+
+@kernel
 def price_of_boundary(bins: int, m: int) -> float:
     """Return how much the prior of eq. 7 takes off for one boundary more, at m boundaries."""
     return math.log(bins) if m <= 0 else math.log(max(bins - m, 1) / m)
@@ -68,6 +81,27 @@ def _take(ways: F, best: F, penalty: F, lane: int, low: int, high: int, log_ways
 
 
 @helper
+def _lost_share(
+    ways: F, best: F, penalty: F, lane: int, low: int, high: int, log_prior: F, log_by_count: F
+) -> float:
+    """Return a bound on the mass of the counts that a pass lost, beside the largest that it has.
+
+    A sum below UNDERFLOW has lost terms below 1e-250, of which there are fewer than 2^T: up to
+    some 400 bins it is below UNDERFLOW for all that.
+    """
+    top = -np.inf
+    for m in range(low, high):
+        top = max(top, log_by_count[m, lane] + log_prior[m])
+    share = 0.0
+    for m in range(len(log_prior)):
+        if m < low or m >= high:
+            log_sum = math.log(max(ways[0, m + 1, lane], UNDERFLOW))
+            at = log_sum + best[0, lane] + (m + 1) * penalty[lane] + log_prior[m]
+            share += math.exp(min(at - top, 0.0))
+    return share
+
+
+@helper
 def _all_reach(values: I, goal: int) -> bool:
     reached = True
     for value in values:
@@ -78,13 +112,13 @@ def _all_reach(values: I, goal: int) -> bool:
 @kernel
 def fill_counts(
     evidence: F, wanted: I, log_prior: F, log_by_count: F, weight: F, penalty: F, best: F,
-    ways: F, low: I, high: I, spare_ways: F, spare: F,
+    ways: F, low: I, high: I, spare_ways: F, spare: F, likely: bool,
 ) -> None:  # fmt: skip
     """Fill log_by_count[M] (C, 8) = ln(P(M) P(D | M)) and leave a pass ready for the posteriors.
 
     log_prior: (C,) log of P(M) and of one segmentation with M boundaries. wanted: (8,) whether a
-    lane is. The last two arrays are scratch; the others are filled with what belongs to a pass
-    whose penalties suit the posterior.
+    lane is. likely: whether counts of no weight may be left at -inf. spare_ways, spare: scratch; the
+    others are filled with what belongs to a pass whose penalties suit the posterior.
     """
     bins = evidence.shape[0]
     counts = len(log_prior)
@@ -94,19 +128,28 @@ def fill_counts(
     linear_pass(evidence, penalty, counts, best, weight, ways, low, high)
     log_by_count[:] = -np.inf
     done = high.copy()
+    passed_over = np.zeros(WIDTH, dtype=np.int64)
+    lowest = 0
     for lane in range(WIDTH):
         _take(ways, best, penalty, lane, low[lane], high[lane], log_by_count)
         if not wanted[lane]:
             low[lane], done[lane] = 0, counts
-    lowest = 0
-    for lane in range(WIDTH):
-        lowest = max(lowest, low[lane])
+        elif likely:
+            lost = _lost_share(
+                ways, best, penalty, lane, low[lane], high[lane], log_prior, log_by_count
+            )
+            passed_over[lane] = lost < NEGLIGIBLE
+        if passed_over[lane]:
+            done[lane] = counts
+        else:
+            lowest = max(lowest, low[lane])
     if lowest > 0:
         table = np.empty((bins + 1, lowest + 4, WIDTH))
         log_ways(evidence, lowest, table)
         for lane in range(WIDTH):
-            for m in range(low[lane]):
-                log_by_count[m, lane] = table[0, m + 1, lane]
+            if not passed_over[lane]:
+                for m in range(low[lane]):
+                    log_by_count[m, lane] = table[0, m + 1, lane]
     if not _all_reach(done, counts):
         _far_counts(evidence, log_by_count, done, best, spare_ways, spare)
     again = False
@@ -184,7 +227,7 @@ def tail_shares(evidence: F, wanted: I, log_by_count: F, best: F, share: F) -> N
     log_evidence, penalty = np.empty((2, WIDTH))
     segments = np.empty(WIDTH, dtype=np.int64)
     for lane in range(WIDTH):
-        log_evidence[lane] = _log_sum(log_by_count[:, lane])
+        log_evidence[lane] = log_sum_of(log_by_count[:, lane])
         share[lane] = 1.0 if wanted[lane] else 0.0
     base = load(log_evidence, (0,)) + math.log(bins)
     bound = aligned(bins * WIDTH).reshape((bins, WIDTH))
@@ -213,7 +256,7 @@ def tail_shares(evidence: F, wanted: I, log_by_count: F, best: F, share: F) -> N
 
 
 @helper
-def _log_sum(values: F) -> float:
+def log_sum_of(values: F) -> float:
     """Return the log of the sum of exponentials."""
     top = values.max()
     sum_ = 0.0
@@ -226,6 +269,7 @@ def _log_sum(values: F) -> float:
 def fit_orders(
     evidence: F, wanted: I, log_prior: F, log_by_count: F, probability: F, boundary: F,
     log_evidence: F, lost: F, cut: F, segments: F, best: F, ways: F, before: F, spare: F,
+    likely: bool,
 ) -> None:  # fmt: skip
     """Work out eight orders with counts 0..C-1.
 
@@ -242,14 +286,14 @@ def fit_orders(
     mass = np.zeros((counts, WIDTH))  # of P(M | D) that the pass has lost
     fill_counts(
         evidence, wanted, log_prior, log_by_count, segments, penalty, best, ways, low, high, before,
-        spare,
+        spare, likely,
     )  # fmt: skip
     tail_shares(evidence, wanted, log_by_count, best, cut)
     before[0] = 0.0
     most = 0
     again = False
     for lane in range(WIDTH):
-        log_evidence[lane] = _log_sum(log_by_count[:, lane])
+        log_evidence[lane] = log_sum_of(log_by_count[:, lane])
         least = 1.0  # of the sums that matter: a segment must be negligible beside the smallest
         for m in range(counts):
             probability[lane, m] = math.exp(log_by_count[m, lane] - log_evidence[lane])

@@ -113,7 +113,7 @@ def lost_by_the_linear_pass(x, prior):
     wanted, low, high = np.ones((3, WIDTH), dtype=np.int64)
     counts.fill_counts(
         evidence, wanted, log_prior, log_by_count, weight, np.empty(WIDTH),
-        np.empty((BINS + 1, WIDTH)), ways, low, high, spare_ways, spare,
+        np.empty((BINS + 1, WIDTH)), ways, low, high, spare_ways, spare, False,
     )  # fmt: skip
     mass = np.exp(log_by_count[:, 0] - logsumexp(log_by_count[:, 0]))
     return mass[ways[0, 1 : BINS + 1, 0] < counts.UNDERFLOW].sum()
@@ -132,6 +132,9 @@ def test_two_peaks_far_apart_are_both_weighed(amplitude, seed, falls_back):
     if falls_back:
         few, many = count[: BINS // 2].sum(), count[BINS // 2 :].sum()
         assert min(few, many) == pytest.approx(lost, rel=1e-3)
+    likely = fit(x, [ORDER], prior, every_count=False)
+    assert likely.log_evidence[0] == pytest.approx(evidence, abs=1e-8)
+    assert likely.boundary_probability(ORDER) == pytest.approx(boundary, abs=1e-9)
     found = fit(x, [ORDER], prior)
     assert found.log_evidence[0] == pytest.approx(evidence, abs=1e-8)
     assert found.count_probability(ORDER) == pytest.approx(count, abs=1e-10)

@@ -152,12 +152,15 @@ def chosen(names: Sequence[str], most: int) -> list[str]:
 class Study:
     """The runs of one corpus: a trajectory in, its posterior out, with the settings of a run."""
 
-    def __init__(self, corpus: Corpus, settings: FitSettings, workers: int = 1) -> None:
-        """Take a corpus and the settings of a run."""
+    def __init__(
+        self, corpus: Corpus, settings: FitSettings, workers: int = 1, every_count: bool = True
+    ) -> None:
+        """Take a corpus and the settings of a run. every_count: as for `fit`."""
         self.corpus = corpus
         self.settings = settings
         self.orders = settings.orders
         self.workers = workers
+        self.every_count = every_count
         self.left_out: list[dict[str, Any]] = []
 
     def run(self, items: Sequence[Data], expectations: bool | Sequence[int] = True) -> list[Fitted]:
@@ -186,6 +189,7 @@ class Study:
             names=[f"recording {item.source.recording}" for item, _, _ in usable],
             sample_at=[item.source.sample_at for item, _, _ in usable],
             expectations=expectations,
+            every_count=self.every_count,
         )
         return [Fitted(item, one) for (item, _, _), one in zip(usable, found, strict=True)]
 

@@ -82,7 +82,7 @@ def readings(
     """
     names = chosen([e.recording for e in corpus.entries], settings.fit.fitted_recordings)
     recordings = [one for path in paths for one in read_recordings(Path(path), names)]
-    runs = Study(corpus, settings.fit, workers)
+    runs = Study(corpus, settings.fit, workers, every_count=False)
     truths, drawn = KnownTruths(), Drawn()
     cuts = {OURS: single_signs(corpus, recordings, settings.cut, seed, truths)}
     for name, change in LAWS.items():
