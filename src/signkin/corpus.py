@@ -444,49 +444,6 @@ def data_folder(corpus: Corpus, data_dir: str | Path | None, results: Path) -> P
     return next((folder for folder in candidates if folder.is_dir()), None)
 
 
-def check_files(corpus: Corpus, folder: Path) -> None:
-    """Refuse a corpus whose data folder lacks a file that recordings.csv names, or leads out of it.
-
-    Where the corpus says `on_error: skip`, that is found when the recording is read.
-    """
-    if corpus.skips:
-        return
-    for entry in corpus.entries:
-        for name in (entry.motion, entry.annotation):
-            if name:
-                data_file(corpus, folder, entry, name)
-
-
-def data_file(corpus: Corpus, folder: Path, entry: Entry, name: str) -> Path:
-    """Return the path of a recording's file: one that is there, in the data folder.
-
-    A path that climbs out of the folder, and a link that leads out of it or nowhere, are errors:
-    recordings.csv may come from anywhere.
-    """
-    path = folder / name
-    try:
-        there = path.is_file() or path.is_dir()
-        outside = not path.resolve().is_relative_to(folder.resolve())
-    except (OSError, RuntimeError, ValueError) as error:  # links in a ring, zero bytes
-        there, outside, path = False, False, Path(f"{folder}/{name!r} ({type(error).__name__})")
-    if outside:
-        raise SignkinError(
-            f"{name} leads out of the data folder {folder}",
-            file=corpus.folder / "recordings.csv",
-            place=f"line {entry.line}",
-            expected="a file below it",
-            todo="Copy or link the files into the data folder itself.",
-        )
-    if not there:
-        raise SignkinError(
-            f"there is no file {path}",
-            file=corpus.folder / "recordings.csv",
-            place=f"line {entry.line}",
-            expected="the recording's file in the data folder",
-        )
-    return path
-
-
 def data_dir_of(data_dir: str | None) -> str | None:
     """Return the folder of real recordings: the environment's SIGNKIN_DATA, else config.yaml's."""
     return os.environ.get("SIGNKIN_DATA") or data_dir or None

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from signkin.errors import SignkinError
@@ -25,7 +25,7 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
 
     extra: arguments for Snakemake; profiles are looked up from a folder. Raises SignkinError where
     there is no SLURM, its controller does not answer, finished jobs cannot be asked for, or a
-    partition of the profile does not exist.
+    partition of the profile or of the arguments does not exist.
     """
     if "slurm" not in executors(extra, folder):
         return []
@@ -36,8 +36,7 @@ def slurm_arguments(extra: Sequence[str], folder: Path) -> list[str]:
             todo="Run there, or leave out the SLURM profile to run on this machine.",
         )
     config = _asked("scontrol", "show", "config")
-    for options in profiles(extra, folder):
-        _check_partitions(options)
+    _check_partitions(extra, profiles(extra, folder))
     if values(extra, STATUS) or _config(config, "AccountingStorageType") not in (
         "accounting_storage/none", "(null)", "",
     ):  # fmt: skip
@@ -78,21 +77,30 @@ def _config(text: str, key: str) -> str:
     return found.group(1).strip() if found else ""
 
 
-def _check_partitions(options: dict[str, object]) -> None:
-    """Refuse a partition that the cluster does not have."""
-    named = _partitions(options.get("default-resources")) | {
-        name
-        for step in _mapping(options.get("set-resources")).values()
-        for name in _partitions(step)
-    }
+def _check_partitions(extra: Sequence[str], told: Sequence[Mapping[str, object]]) -> None:
+    """Refuse a partition that the cluster does not have.
+
+    extra: arguments for Snakemake, whose default resources go before the profiles'. told: the
+    settings of the profiles.
+    """
+    words = extra[: extra.index("--")] if "--" in extra else extra
+    named = dict.fromkeys(_partitions(words), "--default-resources or --set-resources")
+    on_line = any(word.partition("=")[0] == "--default-resources" for word in words)
+    for options in told:
+        resources = [*_mapping(options.get("set-resources")).values(), options.get("set-resources")]
+        if not on_line:
+            resources.append(options.get("default-resources"))
+        for one in resources:
+            named |= dict.fromkeys(_partitions(one), "the profile")
     if not named:
         return
     there = set(_asked("sinfo", "--noheader", "--format=%R").split())
-    if missing := sorted(named - there):
+    if missing := sorted(named.keys() - there):
+        where = named[missing[0]]
         raise SignkinError(
-            f"the profile's slurm_partition {missing[0]!r} is not a partition of this cluster",
+            f"the slurm_partition {missing[0]!r} of {where} is not a partition of this cluster",
             expected=", ".join(sorted(there)) or "a partition (the cluster has none)",
-            todo="Correct slurm_partition in the profile.",
+            todo=f"Correct slurm_partition in {where}.",
         )
 
 
@@ -101,5 +109,15 @@ def _mapping(value: object) -> dict[str, object]:
 
 
 def _partitions(resources: object) -> set[str]:
-    name = _mapping(resources).get("slurm_partition")
-    return set(str(name).split(",")) if name else set()
+    """Return the partitions that resources name: a mapping, or words such as `step:name=value`."""
+    if isinstance(resources, dict):
+        named = [str(resources.get("slurm_partition") or "")]
+    else:
+        words = resources if isinstance(resources, (list, tuple)) else [resources]
+        named = [_of_word(str(word)) for word in words]
+    return {part for text in named for part in text.strip("'\"").split(",") if part}
+
+
+def _of_word(word: str) -> str:
+    found = re.search(r"(?:^|[:=])slurm_partition=(.*)$", word)
+    return found[1] if found else ""

@@ -1,6 +1,6 @@
 """Faults in a run, one after the other, and what the next run makes of them: a table.
 
-    make test-faults                       all of them; 20 kills of the whole run
+    make test-faults                       all of them; 20 kills of the whole run, 10 of single jobs
     make test-faults ARGS="--kills 3"      fewer kills
     make test-faults ARGS="--write"        the rows into the table of docs/reliability.md as well
 
@@ -255,7 +255,7 @@ def job_killed(bench: Bench, number: int) -> tuple[str, bool]:
     return bench.then(folder)
 
 
-def jobs_killed(bench: Bench, count: int = 5) -> Iterator[Row]:
+def jobs_killed(bench: Bench, count: int) -> Iterator[Row]:
     found = [job_killed(bench, 1 + number) for number in range(count)]
     done = f"{count} runs, the 1st to {count}th job; the run fails and says so"
     yield row_of_many("a single job killed", done, found)
@@ -426,7 +426,6 @@ def odd_place(bench: Bench) -> Iterator[Row]:
 PARTS: Mapping[str, Callable[[Bench], Iterator[Row]]] = {
     "signals": signals,
     "parts": parts_killed,
-    "jobs": jobs_killed,
     "second": second_run,
     "leftovers": leftovers,
     "damaged": damaged,
@@ -460,14 +459,19 @@ def write(rows: list[Row]) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=20)
-    parser.add_argument("--only", nargs="*", choices=["kills", *PARTS], help="some parts alone")
+    parser.add_argument("--jobs", type=int, default=10, help="kills of single jobs")
+    parser.add_argument("--only", nargs="*", choices=["kills", "jobs", *PARTS], help="parts alone")
     parser.add_argument("--write", action="store_true", help=f"write the table to {DOC.name}")
     told = parser.parse_args()
     rows: list[Row] = []
     with tempfile.TemporaryDirectory(prefix="signkin-faults-") as folder:
         bench = Bench(Path(folder))
         print(f"undisturbed: {bench.seconds:.0f} s, {len(bench.files)} files", flush=True)
-        parts = {"kills": lambda b: kills(b, told.kills), **PARTS}
+        parts: dict[str, Callable[[Bench], Iterator[Row]]] = {
+            "kills": lambda b: kills(b, told.kills),
+            "jobs": lambda b: jobs_killed(b, told.jobs),
+            **PARTS,
+        }
         for name in told.only or parts:
             for row in parts[name](bench):
                 print("" if row.kept else "NOT KEPT", *vars(row).values(), sep=" | ", flush=True)

@@ -7,12 +7,12 @@ import yaml
 
 from signkin import SignkinError
 from signkin.corpus import (
-    check_files,
     data_folder,
     load_corpora,
     load_corpus,
 )
 from signkin.corpus_checksums import check_checksum
+from signkin.corpus_files import check_files
 from signkin.io import annotation_formats, motion_formats
 from signkin.settings.corpus import Annotation, Motion
 
@@ -240,3 +240,27 @@ def test_an_unknown_corpus_lists_the_known_ones(folder):
     shutil.rmtree(folder)
     with pytest.raises(SignkinError, match="there is no such folder"):
         load_corpora(folder)
+
+
+def test_a_missing_file_of_an_annotator_is_named(folder, tmp_path):
+    data = tmp_path / "data"
+    data.mkdir()
+    for name in ("m.csv", "a.csv"):
+        (data / name).write_text("x")
+    annotation = load_corpus(folder).settings["annotation"]
+    annotators = {"second": {"file": "{recording}-second.eaf"}}
+    write(folder, changed(annotation={**annotation, "annotators": annotators}))
+    corpus = load_corpus(folder)
+    recording = corpus.entries[0].recording
+    with pytest.raises(SignkinError) as refused:
+        check_files(corpus, data)
+    told = str(refused.value)
+    assert told.startswith(
+        f"{folder / 'corpus.yaml'}, key annotation.annotators.second, {recording}: "
+    )
+    assert f"there is no file {data / recording}-second.eaf; expected the annotator's file" in told
+    (data / f"{recording}-second.eaf").write_text("x")
+    check_files(corpus, data)
+    write(folder, changed(annotation={**annotation, "annotators": annotators}, on_error="skip"))
+    (data / f"{recording}-second.eaf").unlink()
+    check_files(load_corpus(folder), data)

@@ -1,6 +1,9 @@
 """Figures are judged by what is drawn: artists, labels and units."""
 
+import json
 import re
+import subprocess
+from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
@@ -12,6 +15,7 @@ from matplotlib.patches import FancyBboxPatch
 
 from signkin.figures import overview, specification
 from signkin.figures.style import RIGHT, paper_style, save
+from signkin.pages import overview as page
 from signkin.pages.overview import layout, parse_rule_graph, rule_notes, stage_order
 from signkin.report.cells import cell
 from signkin.report.images import data_uri, lighter
@@ -22,6 +26,7 @@ from signkin.report.page import (
     TableView,
     render,
 )
+from signkin.settings import Settings
 
 
 @pytest.fixture
@@ -196,3 +201,16 @@ def test_last_digits_of_a_layout_do_not_change_the_bytes(tmp_path):
             save(figure, tmp_path / "a.svg", tmp_path / "a.pdf")
         made.append([(tmp_path / f"a.{kind}").read_bytes() for kind in ("svg", "pdf")])
     assert made[0] == made[1]
+
+
+def test_the_overview_is_the_same_wherever_results_are_copied(monkeypatch, tmp_path):
+    asked = []
+
+    def drawn(command, **how):
+        asked.append(json.loads(Path(command[command.index("--configfile") + 1]).read_text()))
+        return subprocess.CompletedProcess(command, 0, stdout=DOT, stderr="")
+
+    monkeypatch.setattr(page.subprocess, "run", drawn)
+    settings = Settings(seed=7, results_store="s3://signs/mine")
+    assert page.rule_graph(tmp_path / "Snakefile", settings, "all") == DOT
+    assert (asked[0]["seed"], asked[0]["results_store"]) == (7, None)

@@ -11,7 +11,8 @@ import pytest
 import yaml
 
 from signkin import SignkinError
-from signkin.corpus import check_files, load_corpus
+from signkin.corpus import load_corpus
+from signkin.corpus_files import check_files
 from signkin.io.store import read_recordings, write_recordings
 from signkin.settings import Settings
 from signkin.stages import ingest as ingest_module

@@ -1,5 +1,6 @@
 """What a run consists of."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -37,3 +38,17 @@ def test_thousands_of_recordings_share_a_few_jobs(plan):
     assert plan.shards("auslan-hq") == ["0001", "0002", "0003"]
     names = [name for shard in plan.shards("auslan-hq") for name in plan.names("auslan-hq", shard)]
     assert names == [entry.recording for entry in plan.corpora["auslan-hq"].entries]
+
+
+def test_beyond_9999_shards_names_grow(plan, root):
+    corpus = plan.corpora["auslan-hq"]
+    entries = tuple(replace(corpus.entries[0], recording=f"r{i}") for i in range(10_001))
+    many = replace(plan, corpora={"many": replace(corpus, entries=entries)},
+                   settings=Settings(recordings_per_job=1))  # fmt: skip
+    shards = many.shards("many")
+    assert [shards[i] for i in (0, 9998, 9999, 10_000)] == ["0001", "9999", "10000", "10001"]
+    assert many.names("many", shards[-1]) == ["r10000"]
+    rules = (root / "workflow" / "rules" / "common.smk").read_text()
+    allowed = re.search(r'^    shard=r"(.*?)",', rules, re.MULTILINE)
+    assert "{" not in allowed[1]  # braces end a wildcard of Snakemake
+    assert all(re.fullmatch(allowed[1], shard) for shard in shards)

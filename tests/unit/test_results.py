@@ -1,6 +1,7 @@
 """Two trees of results are compared by what they say, and a changed file is found."""
 
 import math
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -120,3 +121,16 @@ def test_a_later_job_counts_and_a_damaged_record_is_forgotten(tmp_path, monkeypa
     for path in (tmp_path / ".snakemake/signkin-written").glob("*.json"):
         path.write_text("{")
     assert recorded() == {}
+
+
+def test_a_folder_with_a_changed_file_is_made_anew_whole(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    folder = Path("results/eaf")
+    folder.mkdir(parents=True)
+    for name in ("a.eaf", "b.eaf", ".snakemake_timestamp"):
+        (folder / name).write_text(name)
+    record([folder])
+    (folder / "a.eaf").write_text("other")
+    assert take_out_changed() == [folder / "a.eaf"]
+    assert not folder.exists()
+    assert not recorded()

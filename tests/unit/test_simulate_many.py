@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from signkin.__main__ import main
-from signkin.corpus import check_files, data_folder, load_corpus
+from signkin.corpus import data_folder, load_corpus
+from signkin.corpus_files import check_files
 from signkin.stages.ingest import ingest
 
 
@@ -33,3 +36,10 @@ def test_no_recordings_are_refused(tmp_path, capsys):
     assert main(["simulate", str(tmp_path), "--recordings", "0"]) == 1
     assert capsys.readouterr().err.startswith("signkin: 0 recordings; expected 1 or more")
     assert not (tmp_path / "corpora").exists()
+
+
+def test_more_recordings_than_the_disk_holds_are_refused(tmp_path, capsys):
+    assert main(["simulate", str(tmp_path / "new" / "one"), "--recordings", "9" * 14]) == 1
+    told = capsys.readouterr().err
+    assert re.match(r"signkin: 9+ recordings take about \d+ GB; expected at most \d+, which", told)
+    assert not (tmp_path / "new").exists()

@@ -61,6 +61,30 @@ def test_an_unknown_partition_is_refused(cluster):
         slurm_arguments(profile(folder, text), folder)
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--default-resources", "mem_mb=1000", "slurm_partition=fast"],
+        ["--default-resources=slurm_partition='fast'"],
+        ["--set-resources", "ingest:slurm_partition=fast,short"],
+    ],
+)
+def test_an_unknown_partition_of_the_command_line_is_refused(cluster, words):
+    folder = cluster()
+    told = r"'fast' of --default-resources or --set-resources is not a partition of this cluster"
+    with pytest.raises(SignkinError, match=told):
+        slurm_arguments([*profile(folder), *words], folder)
+
+
+def test_default_resources_of_the_command_line_go_before_the_profiles(cluster):
+    folder = cluster()
+    text = "executor: slurm\ndefault-resources:\n- mem_mb=1000\n- slurm_partition=fast\n"
+    with pytest.raises(SignkinError, match="'fast' of the profile is not a partition"):
+        slurm_arguments(profile(folder, text), folder)
+    words = [*profile(folder, text), "--default-resources", "slurm_partition=long"]
+    assert slurm_arguments(words, folder) == ["--slurm-status-command", "squeue"]
+
+
 def test_a_controller_that_is_down_is_told(cluster):
     folder = cluster(status=1)
     with pytest.raises(SignkinError, match="does not answer `scontrol show config`"):

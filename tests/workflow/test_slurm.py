@@ -121,7 +121,7 @@ def test_a_partition_that_is_not_there_is_told_before_the_first_job(mini, cluste
     done = run(folder, "--workflow-profile", str(profile), data=data)
     assert done.status == 1
     assert done.text.strip() == (
-        "signkin: the profile's slurm_partition 'short' is not a partition of this cluster; "
+        "signkin: the slurm_partition 'short' of the profile is not a partition of this cluster; "
         "expected all. Correct slurm_partition in the profile."
     )
     assert not asked("squeue", "--noheader")

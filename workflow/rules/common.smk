@@ -25,7 +25,7 @@ LONGEST_CHAIN = 20
 
 wildcard_constraints:
     corpus="[A-Za-z0-9._-]+",
-    shard=r"\d{4}",
+    shard=r"\d\d\d\d+",  # \d{4,} has braces, which end a wildcard
 
 
 def of_shards(*patterns):

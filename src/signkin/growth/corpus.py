@@ -27,6 +27,7 @@ SIGNERS = 8  # of tagged signing: one a design, in turn
 TRIES = 20  # a design may ask for a posture that no body has
 SHARD = 100  # recordings that share a job: at 0.4 s each, a job is far from a minute
 EUCLIDEAN_UNIT_M = 0.1  # of the printed surface
+BYTES = {"tagged": 1_400_000, "signs": 40_000}  # a recording, about
 
 
 def write_corpus(
@@ -43,6 +44,7 @@ def write_corpus(
     """
     if recordings < 1:
         raise SignkinError(f"{recordings} recordings", expected="1 or more")
+    _check_room(folder, kind, recordings)
     corpus = folder / "corpora" / kind
     if corpus.exists():
         raise SignkinError("there is a corpus already", file=corpus, todo="Name another folder.")
@@ -60,6 +62,18 @@ def write_corpus(
     _describe(corpus, model, recordings, seed)
     _configure(folder, kind, home)
     return corpus
+
+
+def _check_room(folder: Path, kind: str, recordings: int) -> None:
+    """Refuse more recordings than there is room for on the disk, before hours are spent."""
+    home = next(place for place in (folder, *folder.resolve().parents) if place.is_dir())
+    most = shutil.disk_usage(home).free // BYTES[kind]
+    if recordings > most:
+        raise SignkinError(
+            f"{recordings} recordings take about {recordings * BYTES[kind] / 1e9:.0f} GB",
+            expected=f"at most {most}, which the disk of {home.resolve()} has room for",
+            todo="Ask for fewer, or name a folder on a larger disk.",
+        )
 
 
 def _tagged(

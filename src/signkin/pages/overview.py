@@ -22,8 +22,9 @@ def rule_graph(snakefile: Path, settings: Settings, target: str) -> str:
     """Return the graph of the rules that a run consists of, in the DOT language.
 
     Asks Snakemake itself, with the run's settings, so that the figure shows the workflow
-    as it is.
+    as it is; but for the copy of results in a storage service, which is no result.
     """
+    settings = settings.model_copy(update={"results_store": None})
     with tempfile.TemporaryDirectory() as folder:
         configfile = Path(folder) / "config.json"
         configfile.write_text(settings.model_dump_json(), encoding="utf-8")

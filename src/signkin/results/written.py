@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from signkin.checksum import sha256_of
 
+FOLDER_MARK = ".snakemake_timestamp"  # in each folder that is an output
 STATE = Path(".snakemake") / "signkin-written"
 
 
@@ -95,7 +97,12 @@ def take_out_changed(state: Path = STATE, root: Path = Path()) -> list[Path]:
     there = {path: value for path, value in known.items() if (root / path).is_file()}
     taken = [path for path, value in sorted(there.items()) if sha256_of(root / path) != value]
     for path in taken:
-        (root / path).unlink()
+        (root / path).unlink(missing_ok=True)
+        # Snakemake takes a folder that is there for whole, whatever it lacks.
+        for folder in path.parents:
+            if (root / folder / FOLDER_MARK).is_file():
+                shutil.rmtree(root / folder)
+    there = {path: value for path, value in there.items() if (root / path).is_file()}
     gone = {path.as_posix() for path in (known.keys() - there.keys()) | set(taken)}
     for kept in state.glob("*.json") if gone else ():
         hashes = json.loads(kept.read_text(encoding="utf-8"))

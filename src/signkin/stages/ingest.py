@@ -13,8 +13,9 @@ import pandas as pd
 from signkin import tables
 from signkin.annotation import Annotation, Interval, LeftOut
 from signkin.annotation_rules import signs_of_hands
-from signkin.corpus import Corpus, Entry, data_file
+from signkin.corpus import Corpus, Entry
 from signkin.corpus_checksums import check_checksum
+from signkin.corpus_files import data_file
 from signkin.errors import SignkinError
 from signkin.io import read_annotation, read_recording, wants_rate
 from signkin.kinematics.rotations import with_limb_frames

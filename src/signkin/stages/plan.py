@@ -10,11 +10,11 @@ from typing import Any
 from signkin.corpus import (
     Corpus,
     Entry,
-    check_files,
     data_dir_of,
     data_folder,
     load_corpora,
 )
+from signkin.corpus_files import check_files
 from signkin.errors import SignkinError, listed
 from signkin.provenance import code_digest
 from signkin.ratings import TAG_FILE
@@ -104,7 +104,7 @@ class Plan:
         return [name for name, corpus in self.corpora.items() if corpus.single_signs]
 
     def shards(self, corpus: str) -> list[str]:
-        """Return the names of a corpus's shards, `0001` and so on."""
+        """Return the names of a corpus's shards: `0001` and so on, `10000` after `9999`."""
         n = len(self.corpora[corpus].entries)
         return [f"{i + 1:04d}" for i in range((n - 1) // self.settings.recordings_per_job + 1)]
 

@@ -188,7 +188,8 @@ def init_corpus(folder: Path, name: str | None, into: Path | None) -> int:
 
 def check_corpus(told: argparse.Namespace) -> int:
     """Look at a corpus, write the page and the tables, print what to do first."""
-    from signkin.corpus import check_files, data_folder, load_corpora, load_corpus
+    from signkin.corpus import data_folder, load_corpora, load_corpus
+    from signkin.corpus_files import check_files
     from signkin.report.page import render
     from signkin.survey.look import look_at
     from signkin.survey.page import look_page
