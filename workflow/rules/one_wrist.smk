@@ -53,6 +53,7 @@ rule one_wrist:
         caption="<results>/endres2013/{corpus}/one_wrist.txt",
     log:
         "<logs>/endres2013/{corpus}/one_wrist.log",
+    priority: 1  # claims, curves and pages wait for it
     params:
         code=PLAN.digest("one_wrist/analysis.py"),
         corpus=lambda w: str(PLAN.corpora[w.corpus].folder),

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 
 from signkin.figures.style import NEUTRAL, SETTING_COLOURS
 
+CLOUD = 2000  # settings that are saved as a picture, which takes 40 MB a panel
 MARKERS = ("v", "o", "^", "s", "D")
 PRINTED: dict[str, Any] = {
     "marker": "o", "ms": 8, "mfc": "none", "mec": "0.1", "mew": 0.9, "ls": "none", "zorder": 4,
@@ -49,7 +50,7 @@ def plot_settings(
                 ax.plot(at[told], here.loc[told, column], **ring)
         ax.plot(
             at, here[column], shapes[m], ms=3.6, color=colours[c], mec="none", alpha=0.9, zorder=5,
-            rasterized=True,  # hundreds of settings in each of many panels
+            rasterized=len(dealt) > CLOUD,
         )  # fmt: skip
     if paper is not None:
         ax.axhline(paper, color="0.3", ls="--", lw=0.9, zorder=1)
