@@ -29,3 +29,10 @@ rule all:
     input:
         RESULTS,
         rules.store.output if SETTINGS.results_store else [],
+
+
+# Snakemake compares params of Python's own types alone, so what settings say is told as text, too:
+# else a changed key would make nothing anew.
+for each in workflow.rules:
+    if settings_told := told_as_text(each.params):
+        each.set_params(settings_told=settings_told)

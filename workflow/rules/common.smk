@@ -2,6 +2,7 @@
 from pathlib import Path
 
 from signkin.errors import SignkinError
+from signkin.rule_params import told_as_text
 from signkin.stages.plan import make_plan
 from signkin.stages.remote import Remote
 from signkin.yaml_file import read_yaml
