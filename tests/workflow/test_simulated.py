@@ -10,6 +10,7 @@ import time
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
 from signkin import read_annotation, tables
 from signkin.coarticulation.transitions import utterance_names
@@ -171,6 +172,17 @@ def test_the_tags_are_written_back_beside_the_old_ones(simulated_run):
 def test_a_second_run_does_nothing(own_copy):
     again = checked(run(own_copy.folder))
     assert "Nothing to be done" in again.text
+
+
+def test_a_changed_key_makes_anew_what_depends_on_it_alone(own_copy):
+    config = own_copy.folder / "config.yaml"
+    told = yaml.safe_load(config.read_text())
+    told.setdefault("refinement", {})["search_window_s"] = 0.16
+    config.write_text(yaml.safe_dump(told))
+    planned = checked(run(own_copy.folder, "-n")).text
+    rules = {line.split()[0] for line in planned.splitlines() if re.fullmatch(r"\w+ +\d+", line)}
+    assert {"refine", "transitions", "naert_tables", "claims", "report"} <= rules
+    assert not rules & {"ingest", "kinematics", "single_signs", "bin_single_signs", "synthesis"}
 
 
 def test_what_was_damaged_is_made_anew_and_said(simulated_run, own_copy):
