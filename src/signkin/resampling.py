@@ -24,6 +24,10 @@ from signkin.errors import SignkinError
 Array = NDArray[np.float64]
 Clusters = Mapping[str, Sequence[Hashable]]
 
+# Weights (draws by clusters) up to so many are drawn as one, which takes 250 MB; more, so many at
+# a time: the same weights, sums that may differ in their last digit.
+WHOLE_UP_TO, AT_ONCE = 16_000_000, 2_000_000
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -180,9 +184,7 @@ def _spread(
     parts = [_sums(deviations, code) for code in codes.values()]
     about = np.zeros((draws, values.shape[1]))
     for part in parts:
-        half = rng.standard_normal((draws - draws // 2, len(part)))
-        weights = np.concatenate([half, -half[: draws // 2]])  # as many up as down
-        about += weights @ part
+        about += _weighed(part, draws, rng)
     drawn: Array = np.sum([np.sum(part**2, axis=0) for part in parts], axis=0)
     wanted: Array = _variance(deviations, list(codes.values()), parts)
     if one_scale:
@@ -191,6 +193,18 @@ def _spread(
     half_way, least = (1 + level) / 2, min(map(len, parts))
     factor = scipy.stats.t.ppf(half_way, least - 1) / scipy.stats.norm.ppf(half_way)
     return np.asarray(centre + factor * scale * about)
+
+
+def _weighed(part: Array, draws: int, rng: np.random.Generator) -> Array:
+    """Return sums of clusters, each weighted at random in each draw, (draws, K): part (G, K)."""
+    up = draws - draws // 2
+    if draws * len(part) <= WHOLE_UP_TO:
+        half = rng.standard_normal((up, len(part)))
+        return np.asarray(np.concatenate([half, -half[: draws // 2]]) @ part)  # as many up as down
+    at_once = max(1, AT_ONCE // len(part))
+    sizes = [min(at_once, up - first) for first in range(0, up, at_once)]
+    rows = np.concatenate([rng.standard_normal((size, len(part))) @ part for size in sizes])
+    return np.concatenate([rows, -rows[: draws // 2]])
 
 
 def _sums(deviations: Array, code: NDArray[np.intp]) -> Array:
