@@ -184,17 +184,23 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
         "longest job (CPU s)": lambda m: m.jobs["cpu_s"].max(),
         "largest job (MB)": lambda m: m.jobs["peak_mb"].max(),
     }
-    figure, axes = plt.subplots(1, len(panels), figsize=(9, 2.8), layout="constrained")
+    figure, axes = plt.subplots(1, len(panels), figsize=(9, 3.1), layout="constrained")
+    sizes = sorted({m.recordings for m in measured})
     for ax, (title, value) in zip(axes, panels.items(), strict=True):
         for (kind, name), marker in zip(KINDS.items(), "os", strict=True):
             own = [m for m in measured if m.kind == kind]
             ax.plot(
                 [m.recordings for m in own], [value(m) for m in own], marker, ls="-", label=name
             )
-        ax.set(xscale="log", yscale="log", xlabel="recordings", title=title)
+        ax.set(xscale="log", xlabel="recordings", title=title)
+        ax.set_xticks(sizes, [f"{size:,}" for size in sizes])
+        ax.minorticks_off()
     for ax, limit in zip(axes[1:], (60, 1073.7), strict=True):
-        ax.axhline(limit, color="0.5", ls=":", lw=1)
-    axes[0].legend(frameon=False)
+        ax.axhline(limit, color="0.5", ls=":", lw=1, label="a minute, 1 GiB")
+    for ax in axes:
+        ax.set_ylim(bottom=0)
+    handles, labels = axes[1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
     figure.savefig(path, metadata={"Date": None})
 
 
