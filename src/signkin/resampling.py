@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy  # loads scipy.stats when it is used: it takes as long to import as numba
@@ -137,6 +138,15 @@ def peak(
         tuple(labels), kept.mean(axis=0), low, high, probability, len(kept), left_out,
         {name: int(c.max()) + 1 for name, c in codes.items()},
     )  # fmt: skip
+
+
+def narrowed(found: Any, bound: Any, taken: int, n: int) -> Any:
+    """Return a bound of a bootstrap whose draws take fewer than n rows: the m out of n bootstrap.
+
+    Draws of `taken` rows spread by the square root of n / taken too much about what was found
+    (Bickel, Goetze & van Zwet 1997). found, bound: numbers or arrays.
+    """
+    return found + np.sqrt(taken / n) * (bound - found)
 
 
 def _complete(values: Array, clusters: Clusters) -> tuple[Array, dict[str, NDArray[np.intp]], int]:

@@ -4,8 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from scipy import stats
 
 from signkin import SignkinError
+from signkin.audit.at_n import _kruskal
 from signkin.audit.ledger import audit, evidence_for
 from signkin.audit.paper import read_paper
 
@@ -152,3 +154,18 @@ def test_a_small_corpus_tells_what_it_would_have_missed(told):
     note = told([check], {"t": table}, printed={"n": "89"})["note"]
     assert "with 80 % power it finds effects from f = " in note
     assert "the print had 89" in note
+
+
+@pytest.mark.parametrize("one", [None, 1])
+def test_p_of_groups_is_scipys_with_ties_gaps_and_infinite_values(one):
+    rng = np.random.default_rng(8)
+    for _ in range(20):
+        values = rng.integers(0, 6, (rng.integers(4, 30), 3)).astype(float)
+        values[rng.random(values.shape) < 0.15] = np.nan
+        values[0] = 1.0, 2.0, np.inf
+        groups = [column[~np.isnan(column)] for column in values.T]
+        if one is not None:
+            groups = [groups[one], np.concatenate([groups[0], groups[2]])]
+        pooled = stats.rankdata(np.concatenate(groups))
+        expected = stats.kruskal(*np.split(pooled, np.cumsum([len(g) for g in groups])[:-1])).pvalue
+        assert _kruskal(values, one) == pytest.approx(expected, rel=1e-12)

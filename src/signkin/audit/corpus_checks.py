@@ -22,6 +22,7 @@ from signkin.audit.registry import Missing, OnCorpus, on_corpus
 from signkin.audit.rounding import allowed, shown
 from signkin.audit.verdicts import from_interval, more_than_luck
 from signkin.errors import SignkinError, listed
+from signkin.resampling import narrowed
 
 DRAWS = 1000  # of the bootstrap
 MOST_DRAWN = 50_000  # rows that a bootstrap draw takes
@@ -172,7 +173,7 @@ def _interval(drawn: NDArray[np.float64], found: float, n: int) -> tuple[float, 
     """Return the interval of draws; of fewer than n rows it is narrowed (m out of n)."""
     low, high = np.quantile(drawn, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     if n > MOST_DRAWN:
-        low, high = (found + np.sqrt(MOST_DRAWN / n) * (bound - found) for bound in (low, high))
+        low, high = (narrowed(found, bound, MOST_DRAWN, n) for bound in (low, high))
     return float(low), float(high)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
@@ -54,24 +54,27 @@ def counted(
     """
     fewest = -(-bins // longest) - 1
     end = bins - 1 if max_count is None else min(max(int(max_count), fewest), bins - 1)
-    most = end
-    if likely:
-        most = min(end, max(fewest, likely_count(evidence, wanted)))
-    while True:
+    if not likely:
+        return _counted(evidence, wanted, bins, longest, end, likely)
+    for most in likely_counts(evidence, wanted, fewest, end):
         found = _counted(evidence, wanted, bins, longest, most, likely)
-        if most == end or found.cut_mass.max() <= LIKELY_CUT:
-            return found
-        most = min(end, 2 * most)
+        if found.cut_mass.max() <= LIKELY_CUT:
+            break
+    return found
 
 
-def likely_count(evidence: Floats, wanted: tuple[int, ...]) -> int:
-    """Return a number of boundaries that the likely ones hardly exceed, whatever the order."""
+def likely_counts(
+    evidence: Floats, wanted: tuple[int, ...], fewest: int, end: int
+) -> Iterator[int]:
+    """Yield numbers of boundaries that the likely ones hardly exceed: one, then larger ones."""
     best = ROOM.array("best", evidence.shape[1] + 1, WIDTH)
-    asked = asked_lanes(len(evidence), wanted)
-    return max(
-        likely_most(evidence[g], asked[g * WIDTH : (g + 1) * WIDTH], best)
-        for g in range(len(evidence))
-    )
+    asked = asked_lanes(len(evidence), wanted).reshape(-1, WIDTH)
+    likely = max(likely_most(*each, best) for each in zip(evidence, asked, strict=True))
+    most = min(end, max(fewest, likely))
+    yield most
+    while most < end:
+        most = min(end, 2 * most)
+        yield most
 
 
 def asked_lanes(groups: int, wanted: tuple[int, ...]) -> NDArray[np.int64]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signkin.binning.all_counts import LIKELY_CUT, asked_lanes
-from signkin.binning.counts import fill_counts, likely_most, log_sum_of, tail_shares
+from signkin.binning.all_counts import LIKELY_CUT, asked_lanes, likely_counts
+from signkin.binning.counts import fill_counts, log_sum_of, tail_shares
 from signkin.binning.evidence import ROOM
 from signkin.binning.lanes import WIDTH
 from signkin.binning.segmentation_prior import log_prior_of
@@ -30,21 +30,20 @@ def log_evidences_of(evidence: F, wanted: tuple[int, ...], bins: int, longest: i
     best = ROOM.array("best", bins + 1, WIDTH)
     weight = ROOM.array("probabilities", *evidence.shape)
     spare = ROOM.array("spare", *evidence.shape[1:])
-    for g in range(groups):
-        own = slice(g * WIDTH, (g + 1) * WIDTH)
-        counts = min(bins, max(-(-bins // longest), 1 + likely_most(evidence[g], asked[own], best)))
-        while True:
-            columns = columns_for(counts)
-            ways, spare_ways = (
-                ROOM.array(name, bins + 1, columns, WIDTH) for name in ("ways", "before")
-            )  # fmt: skip
+    fewest = -(-bins // longest) - 1
+    for most in likely_counts(evidence, wanted, fewest, bins - 1):
+        columns = columns_for(most + 1)
+        ways, spare_ways = (
+            ROOM.array(name, bins + 1, columns, WIDTH) for name in ("ways", "before")
+        )  # fmt: skip
+        for g in range(groups):
+            own = slice(g * WIDTH, (g + 1) * WIDTH)
             _fill(
-                evidence[g], asked[own], log_prior[:counts], out[own], cut[own], weight[g], best,
+                evidence[g], asked[own], log_prior[: most + 1], out[own], cut[own], weight[g], best,
                 ways, spare_ways, spare,
             )  # fmt: skip
-            if counts == bins or cut[own].max() <= LIKELY_CUT:
-                break
-            counts = min(bins, 2 * counts)
+        if cut.max() <= LIKELY_CUT:
+            break
     return out[list(wanted)]
 
 

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from signkin.binning.pairs import best_pairs, count_pairs, hits_of_many
 from signkin.errors import SignkinError
 from signkin.masked import unmasked
+from signkin.resampling import narrowed
 
 Floats = NDArray[np.float64]
 
@@ -192,9 +193,9 @@ def hpfpps(
         if len(there)
         else (float("nan"), float("nan"))
     )
-    narrower = np.sqrt(min(n, MOST_DRAWN) / n)
-    if narrower < 1 and np.isfinite(value):  # an infinite end stays one
-        low, high = (value + narrower * (bound - value) for bound in (low, high))
+    taken = min(n, MOST_DRAWN)
+    if taken < n and np.isfinite(value):  # an infinite end stays one
+        low, high = (narrowed(value, bound, taken, n) for bound in (low, high))
     note = ""
     if np.isinf(value):
         note = "no false positive"
@@ -202,7 +203,7 @@ def hpfpps(
         note = "neither hits nor false positives"
     return Hpfpps(
         value=value,
-        se=float(finite.std(ddof=1) * narrower) if len(finite) > 1 else float("nan"),
+        se=float(narrowed(0.0, finite.std(ddof=1), taken, n)) if len(finite) > 1 else float("nan"),
         low=float(low),
         high=float(high),
         draws=draws,

@@ -11,6 +11,7 @@ from statsmodels.regression.linear_model import OLS
 from statsmodels.stats.proportion import proportion_confint
 from statsmodels.tools.tools import add_constant
 
+from signkin.resampling import narrowed
 from signkin.statistics.findings import Finding, Kind, untestable
 
 Array = NDArray[np.float64]
@@ -54,7 +55,7 @@ def bootstrap(
     low, high = np.nanquantile(values, [alpha / 2, 1 - alpha / 2], axis=0)
     if taken < n:
         whole = np.asarray(statistic(np.arange(len(labels))), dtype=float)
-        low, high = (whole + np.sqrt(taken / n) * (bound - whole) for bound in (low, high))
+        low, high = (narrowed(whole, bound, taken, n) for bound in (low, high))
     return low, high
 
 
